@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// A model laid over a shape: reference positions, windows and edges of the parts (thesis ch. 3.2.2
+/// and 3.4.1).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "chain_tracker/chain/chain_model.h"
+#include "chain_tracker/image/pixel_geometry.h"
+
+namespace chain_tracker {
+
+struct PartLayout {
+  cv::Point2d position;  ///< in the segment's frame, at scale 1 [px]
+  double side = 0.0;     ///< of the window at scale 1 [px]
+};
+
+/// Edge from a part to the next one: the thesis's distance d and angular displacement phi.
+struct EdgeLayout {
+  double length = 0.0;         ///< at scale 1 [px]
+  double direction = 0.0;      ///< against the segment's orientation [rad]
+  double stretch_sigma = 0.0;  ///< of the length, fraction of the length
+  double bend_sigma = 0.0;     ///< of the direction [rad]
+};
+
+struct SegmentLayout {
+  std::string name;
+  Layout layout = Layout::kElongated;
+  Similarity image_from_segment;  ///< in the first frame; its scale is 1
+  std::vector<PartLayout> parts;
+  std::vector<EdgeLayout> edges;     ///< one fewer than parts
+  std::vector<cv::Point2d> points;   ///< those given, in the segment's frame
+  std::vector<cv::Point2d> corners;  ///< of the initial box, in the segment's frame
+};
+
+/// The region that the object covers in the first frame [px].
+struct Silhouette {
+  std::vector<cv::Point2d> points;
+  double stroke = 0.0;  ///< width of the open polyline; 0: a closed polygon, filled
+};
+
+struct ChainLayout {
+  std::vector<SegmentLayout> segments;
+  Silhouette silhouette;
+};
+
+/// Throws std::invalid_argument if the layout cannot take that many points or if points are not
+/// finite, coincide or span no area, naming them.
+ChainLayout layOut(const ChainModel& model, const std::vector<cv::Point2d>& points);
+
+/// 255 where the silhouette, grown by `margin` [px] on all sides, covers a pixel.
+cv::Mat1b maskOf(const Silhouette& silhouette, const cv::Size& image_size, double margin);
+
+}  // namespace chain_tracker

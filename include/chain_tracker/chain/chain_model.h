@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The configurable model of an object (thesis ch. 3.2-3.3): everything that is known before the
+/// first image. One model serves all objects; only these numbers differ.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace chain_tracker {
+
+/// How the parts of a segment are laid out over the shape that initialises it.
+enum class Layout {
+  kElongated,   ///< square cells over a long rectangle: its two ends and `aspect`, or four corners
+  kPlanar,      ///< square cells over a rectangle given by its four corners
+  kDeformable,  ///< equal steps along a polyline
+};
+
+/// One segment: a chain of parts that turns and rescales as one (thesis ch. 3.2.2).
+struct SegmentModel {
+  std::string name = "body";
+  Layout layout = Layout::kElongated;
+  int parts = 24;               ///< wanted number of parts; a grid of cells comes as near as it can
+  double aspect = 0.4;          ///< width over length of an elongated object given by its two ends
+  double window = 1.15;         ///< window side over cell side, or over the step along the polyline
+  double stretch_sigma = 0.05;  ///< standard deviation of an edge's length, fraction of the length
+  double bend_sigma = 0.1;      ///< standard deviation of an edge's angular displacement [rad]
+  int orientation_hypotheses = 5;  ///< odd; orientations tried around the previous one
+  double orientation_step = 0.1;   ///< between neighbouring orientation hypotheses [rad]
+  double orientation_sigma = 0.1;  ///< of the turn between two frames [rad]
+  int scale_hypotheses = 3;        ///< odd; scales tried around the previous one
+  double scale_step = 0.03;        ///< between neighbouring scale hypotheses, log scale
+  double scale_sigma = 0.03;       ///< of the change of log scale between two frames
+};
+
+/// What the colour channels learn in the first frame (thesis ch. 3.2.1).
+struct AppearanceModel {
+  int palette_colors = 24;        ///< colours learned from the object and the ring around it
+  double ring = 0.5;              ///< width of that ring, fraction of the object's size
+  double min_object_share = 0.5;  ///< a colour rarer on the object than this becomes "other"
+  double weight = 8.0;            ///< of the appearance cost against the springs
+};
+
+/// Where and when the object is looked for, and when it counts as found.
+struct SearchModel {
+  double radius = 0.06;          ///< reach of a part between frames, fraction of the image diagonal
+  double lost_below = 0.28;      ///< confidence under which a tracked object becomes LOST
+  double found_above = 0.4;      ///< confidence over which a LOST object is tracked again
+  double occluded_below = 0.25;  ///< confidence under which a part counts as hidden
+};
+
+struct ChainModel {
+  std::string name = "bottle";
+  std::vector<SegmentModel> segments = {SegmentModel()};
+  AppearanceModel appearance;
+  SearchModel search;
+};
+
+/// Every fault of the model, one sentence each, naming the key, its value and what is allowed;
+/// empty if the model can be used.
+std::vector<std::string> faultsOf(const ChainModel& model);
+
+}  // namespace chain_tracker

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What the tracker knows about an object after a frame.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "chain_tracker/chain/tracking_status.h"
+#include "chain_tracker/image/pixel_geometry.h"
+
+namespace chain_tracker {
+
+struct PartState {
+  cv::Point2d position;      ///< centre of the part's window [px]
+  double orientation = 0.0;  ///< of its segment; along the chain for deformable ones [rad]
+  double side = 0.0;         ///< of the window [px]
+  double confidence = 0.0;   ///< [0, 1]
+  bool visible = false;      ///< false: hidden, the position comes from its neighbours
+  /// Of the position [px^2]; NaN where the search window gives no curvature.
+  cv::Matx22d covariance = cv::Matx22d::all(0.0);
+};
+
+struct SegmentState {
+  std::string name;
+  Similarity image_from_segment;  ///< translation: where the segment's centre is [px]
+  double confidence = 0.0;        ///< [0, 1], mean over its parts
+  int first_part = 0;             ///< index into ChainState::parts
+  int part_count = 0;
+};
+
+/// A point given at initialisation, carried by the parts ever since.
+struct CarriedPoint {
+  cv::Point2d position;  ///< [px]
+  double confidence = 0.0;
+  bool visible = false;
+};
+
+/// Wall time of the steps of one update [ms].
+struct StepTimes {
+  double part_costs = 0.0;  ///< colour lookup and cost maps over the search window
+  double matching = 0.0;    ///< dynamic programming over the pose hypotheses
+  double refinement = 0.0;  ///< the same around the winner at full resolution
+  double pose = 0.0;        ///< pose, confidence and status
+  double total() const { return part_costs + matching + refinement + pose; }
+};
+
+struct ChainState {
+  TrackingStatus status = TrackingStatus::kInitializing;
+  double confidence = 0.0;  ///< [0, 1], mean over the parts
+  double energy = 0.0;      ///< E of thesis ch. 3.2 at the solution; smaller is better
+  std::vector<PartState> parts;
+  std::vector<SegmentState> segments;
+  std::vector<CarriedPoint> points;  ///< in the order given at initialisation
+  std::vector<cv::Point2d> outline;  ///< corners of the initial box, moved with the object [px]
+  cv::Rect2d box;                    ///< upright bounds of the moved initial box [px]
+  StepTimes times;
+};
+
+}  // namespace chain_tracker

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The tracker: the object's pose in every frame, given its pose in the first (thesis ch. 3.4).
+///
+/// Each update looks the colours up, compares every part's window with the histogram learned in
+/// the first frame, matches the whole chain at once by dynamic programming over a small set of
+/// orientations and scales, refines the winner at full resolution, and judges it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "chain_tracker/chain/chain_model.h"
+#include "chain_tracker/chain/chain_state.h"
+
+namespace chain_tracker {
+
+class ChainTracker {
+ public:
+  /// Learns the object at `points` [px] in `image` (CV_8UC3 BGR or CV_8UC1).
+  /// The layouts say what points they take: two ends or four corners (elongated), four corners
+  /// (planar), a polyline of at least two points (deformable).
+  /// Throws std::invalid_argument naming the thing, its value and what is allowed: a faulty model,
+  /// an empty image or one of another type, one smaller than a part, a wrong number of points,
+  /// points that coincide, are not finite or lie outside the image.
+  ChainTracker(const ChainModel& model, const cv::Mat& image,
+               const std::vector<cv::Point2d>& points);
+  ~ChainTracker();
+  ChainTracker(ChainTracker&&) noexcept;
+  ChainTracker& operator=(ChainTracker&&) noexcept;
+
+  /// Tracks into the next frame and returns the state there.
+  /// Throws std::invalid_argument if the image is empty or differs in size or type from the first;
+  /// the tracker is then as before.
+  /// Time: linear in the number of parts; linear in the area of a part's search window.
+  const ChainState& update(const cv::Mat& image);
+
+  const ChainState& state() const;
+  const ChainModel& model() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace chain_tracker

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// How badly a part's learned colours match the window around each candidate position
+/// (appearance term A of thesis ch. 3.2.1).
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "chain_tracker/image/color_palette.h"
+#include "chain_tracker/image/window_histograms.h"
+
+namespace chain_tracker {
+
+/// Square roots of the histogram of a part's window in the first frame, one a palette entry.
+using RootHistogram = std::vector<float>;
+
+/// Candidate positions of all parts of a segment: equal windows of one lattice.
+struct CandidateGrid {
+  WindowLattice lattice;           ///< covers the candidates of all parts
+  std::vector<cv::Point> corners;  ///< lattice position of each part's state (0, 0)
+  cv::Size states;                 ///< of each part: columns and rows, odd
+
+  /// Position of a part's state, which may lie between lattice points [px].
+  cv::Point2d positionOf(size_t part, const cv::Point2d& state) const {
+    return lattice.centerOf(corners[part].x + state.x, corners[part].y + state.y);
+  }
+};
+
+/// Grid whose middle states lie nearest to `centers`, reaching at least `radius` [px] around them.
+/// `side`: of the windows [px], rounded to whole cells of `step` pixels.
+CandidateGrid makeCandidateGrid(const std::vector<cv::Point2d>& centers, double side, int step,
+                                double radius);
+
+struct PartCostsWorkspace {
+  std::vector<cv::Mat1f> roots;
+  WindowHistogramsWorkspace histograms;
+};
+
+/// costs[k](row, column) = weight * sqrt(1 - BC), BC the Bhattacharyya coefficient of part k's
+/// histogram and that of the window at that state: in [0, weight].
+/// O(pixels of the lattice + parts x states x palette entries of a part).
+void computePartCosts(const cv::Mat& image, const ColorPalette& palette,
+                      const std::vector<RootHistogram>& parts, const CandidateGrid& grid,
+                      double weight, std::vector<cv::Mat1f>& costs, PartCostsWorkspace& workspace);
+
+/// Histogram of the window of `side` [px] around `center`.
+RootHistogram learnPart(const cv::Mat& image, const ColorPalette& palette,
+                        const cv::Point2d& center, double side);
+
+}  // namespace chain_tracker

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The state machine of an object: INITIALIZING -> TRACKING <-> OCCLUDED -> LOST -> TRACKING.
+#pragma once
+
+#include <string>
+
+#include "chain_tracker/chain/chain_model.h"
+
+namespace chain_tracker {
+
+enum class TrackingStatus {
+  kInitializing,  ///< no frame tracked yet; the state is the one given
+  kTracking,      ///< all parts seen
+  kOccluded,      ///< tracked, some parts are hidden and carried by the others
+  kLost,          ///< not found; positions are the last believed ones and mean nothing now
+};
+
+/// "INITIALIZING", "TRACKING", "OCCLUDED" or "LOST".
+std::string toString(TrackingStatus status);
+
+/// The status after a frame in which the object was matched with `confidence` [0, 1]. A LOST
+/// object needs more confidence to be believed again than a tracked one to be kept (hysteresis).
+TrackingStatus nextStatus(TrackingStatus previous, double confidence, bool all_parts_visible,
+                          const SearchModel& model);
+
+}  // namespace chain_tracker

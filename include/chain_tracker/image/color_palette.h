@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The few colours that tell the object from its surroundings, learned in the first frame, and the
+/// lookup table that turns pixels into them (thesis ch. 3.2.1: colour histograms as appearance).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace chain_tracker {
+
+struct PaletteOptions {
+  int colors = 24;                ///< clusters looked for, in [2, 254]
+  double min_object_share = 0.5;  ///< in [0, 1)
+};
+
+class ColorPalette {
+ public:
+  /// Entry of every colour that is not the object's, and of all that lies outside the image.
+  static constexpr std::uint8_t kOther = 0;
+
+  /// Clusters the Lab colours under both masks; a cluster whose share of the object, p_object /
+  /// (p_object + p_ring), is below min_object_share is merged into "other". If that leaves none,
+  /// the cluster with the largest share stays.
+  /// `image`: CV_8UC3 (BGR) or CV_8UC1; masks: of its size, `object` not all zero.
+  /// The same image and masks always give the same palette.
+  ColorPalette(const cv::Mat& image, const cv::Mat1b& object, const cv::Mat1b& ring,
+               const PaletteOptions& options);
+
+  /// Number of entries, "other" included; entries are 0 .. size() - 1.
+  int size() const { return size_; }
+
+  /// Entries of the pixels in `region`, which may reach outside the image. `entries` gets the
+  /// region's size. O(region).
+  void classify(const cv::Mat& image, const cv::Rect& region, cv::Mat1b& entries) const;
+
+ private:
+  int size_ = 1;
+  std::vector<std::uint8_t> bgr_table_;   ///< 5 bits a channel
+  std::vector<std::uint8_t> grey_table_;  ///< 8 bits, for one-channel images
+};
+
+}  // namespace chain_tracker

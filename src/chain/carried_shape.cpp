@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/chain/carried_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace chain_tracker {
+namespace {
+
+/// The frame whose unit vector along x is the edge from a to b.
+Similarity frameOfEdge(const cv::Point2d& a, const cv::Point2d& b) {
+  return {directionOf(b - a), std::max(cv::norm(b - a), 1e-9), a};
+}
+
+double distanceToEdge(const cv::Point2d& point, const cv::Point2d& a, const cv::Point2d& b) {
+  const cv::Point2d local = frameOfEdge(a, b).applyInverse(point);
+  const cv::Point2d nearest = frameOfEdge(a, b).apply({std::clamp(local.x, 0.0, 1.0), 0.0});
+  return cv::norm(point - nearest);
+}
+
+size_t nearestEdge(const std::vector<PartLayout>& parts, const cv::Point2d& point) {
+  size_t nearest = 0;
+  double nearest_distance = std::numeric_limits<double>::infinity();
+  for (size_t k = 0; k + 1 < parts.size(); ++k) {
+    const double distance = distanceToEdge(point, parts[k].position, parts[k + 1].position);
+    if (distance < nearest_distance) {
+      nearest_distance = distance;
+      nearest = k;
+    }
+  }
+  return nearest;
+}
+
+size_t nearestPart(const std::vector<PartLayout>& parts, const cv::Point2d& point) {
+  const auto nearer = [&](const PartLayout& a, const PartLayout& b) {
+    return cv::norm(a.position - point) < cv::norm(b.position - point);
+  };
+  return static_cast<size_t>(std::min_element(parts.begin(), parts.end(), nearer) - parts.begin());
+}
+
+/// Whether the box's sides are parallel to the image's.
+bool isUpright(const std::vector<cv::Point2d>& corners, double orientation) {
+  const double side = directionOf(corners[1] - corners[0]) + orientation;
+  return std::abs(std::sin(2.0 * side)) < 1e-6;
+}
+
+}  // namespace
+
+CarriedShape::CarriedShape(const SegmentLayout& segment)
+    : deformable_(segment.layout == Layout::kDeformable),
+      initial_orientation_(segment.image_from_segment.angle),
+      corners_(segment.corners) {
+  for (const cv::Point2d& point : segment.points) {
+    if (!deformable_) {
+      anchors_.push_back({point, nearestPart(segment.parts, point)});
+      continue;
+    }
+    const size_t k = nearestEdge(segment.parts, point);
+    const Similarity frame = frameOfEdge(segment.parts[k].position, segment.parts[k + 1].position);
+    anchors_.push_back({frame.applyInverse(point), k});
+  }
+}
+
+std::vector<CarriedPoint> CarriedShape::points(const SegmentState& segment,
+                                               const std::vector<PartState>& parts) const {
+  std::vector<CarriedPoint> points;
+  for (const Anchor& anchor : anchors_) {
+    if (!deformable_) {
+      const PartState& part = parts[anchor.part];
+      points.push_back(
+          {segment.image_from_segment.apply(anchor.point), part.confidence, part.visible});
+      continue;
+    }
+    const PartState& a = parts[anchor.part];
+    const PartState& b = parts[anchor.part + 1];
+    points.push_back({frameOfEdge(a.position, b.position).apply(anchor.point),
+                      0.5 * (a.confidence + b.confidence), a.visible && b.visible});
+  }
+  return points;
+}
+
+std::vector<cv::Point2d> CarriedShape::outline(const SegmentState& segment) const {
+  std::vector<cv::Point2d> outline;
+  for (const cv::Point2d& corner : corners_) {
+    outline.push_back(segment.image_from_segment.apply(corner));
+  }
+  return outline;
+}
+
+cv::Rect2d CarriedShape::box(const SegmentState& segment) const {
+  if (!isUpright(corners_, initial_orientation_)) return uprightBounds(outline(segment));
+  SegmentState unturned = segment;
+  unturned.image_from_segment.angle = initial_orientation_;
+  return uprightBounds(outline(unturned));
+}
+
+std::vector<double> partOrientations(const SegmentLayout& layout, const SegmentState& segment,
+                                     const std::vector<PartState>& parts) {
+  std::vector<double> orientations(parts.size(), segment.image_from_segment.angle);
+  if (layout.layout != Layout::kDeformable) return orientations;
+  for (size_t k = 0; k < parts.size(); ++k) {
+    const size_t before = k > 0 ? k - 1 : 0;
+    const size_t after = std::min(k + 1, parts.size() - 1);
+    orientations[k] = directionOf(parts[after].position - parts[before].position);
+  }
+  return orientations;
+}
+
+}  // namespace chain_tracker

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/chain/chain_model.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace chain_tracker {
+namespace {
+
+class FaultList {
+ public:
+  template <typename Number>
+  void requireRange(const std::string& key, Number value, Number low, Number high) {
+    if (value >= low && value <= high) return;  // also refuses NaN
+    std::ostringstream fault;
+    fault << key << " is " << value << ", must be in [" << low << ", " << high << "]";
+    faults_.push_back(fault.str());
+  }
+
+  void requireOdd(const std::string& key, int value) {
+    if (value % 2 != 0) return;
+    add(key + " is " + std::to_string(value) + ", must be odd (the middle one is no change)");
+  }
+
+  void requireText(const std::string& key, const std::string& value) {
+    if (value.empty()) add(key + " is empty, must be a name");
+  }
+
+  void add(std::string fault) { faults_.push_back(std::move(fault)); }
+  std::vector<std::string> take() { return std::move(faults_); }
+
+ private:
+  std::vector<std::string> faults_;
+};
+
+void checkSegment(const SegmentModel& segment, const std::string& prefix, FaultList& faults) {
+  faults.requireText(prefix + "name", segment.name);
+  faults.requireRange(prefix + "parts", segment.parts, 2, 200);
+  faults.requireRange(prefix + "aspect", segment.aspect, 0.001, 1.0);
+  faults.requireRange(prefix + "window", segment.window, 0.2, 10.0);
+  faults.requireRange(prefix + "stretch_sigma", segment.stretch_sigma, 0.005, 1.0);
+  faults.requireRange(prefix + "bend_sigma", segment.bend_sigma, 0.005, 3.0);
+  faults.requireRange(prefix + "orientation_hypotheses", segment.orientation_hypotheses, 1, 63);
+  faults.requireOdd(prefix + "orientation_hypotheses", segment.orientation_hypotheses);
+  faults.requireRange(prefix + "orientation_step", segment.orientation_step, 0.005, 1.0);
+  faults.requireRange(prefix + "orientation_sigma", segment.orientation_sigma, 0.005, 10.0);
+  faults.requireRange(prefix + "scale_hypotheses", segment.scale_hypotheses, 1, 15);
+  faults.requireOdd(prefix + "scale_hypotheses", segment.scale_hypotheses);
+  faults.requireRange(prefix + "scale_step", segment.scale_step, 0.002, 0.5);
+  faults.requireRange(prefix + "scale_sigma", segment.scale_sigma, 0.002, 10.0);
+}
+
+void checkAppearance(const AppearanceModel& appearance, FaultList& faults) {
+  faults.requireRange("appearance/palette_colors", appearance.palette_colors, 2, 254);
+  faults.requireRange("appearance/ring", appearance.ring, 0.05, 3.0);
+  faults.requireRange("appearance/min_object_share", appearance.min_object_share, 0.0, 0.95);
+  faults.requireRange("appearance/weight", appearance.weight, 0.1, 1000.0);
+}
+
+void checkSearch(const SearchModel& search, FaultList& faults) {
+  faults.requireRange("search/radius", search.radius, 0.002, 1.0);
+  faults.requireRange("search/lost_below", search.lost_below, 0.0, 1.0);
+  faults.requireRange("search/found_above", search.found_above, 0.0, 1.0);
+  faults.requireRange("search/occluded_below", search.occluded_below, 0.0, 1.0);
+  if (search.found_above < search.lost_below) {
+    std::ostringstream fault;
+    fault << "search/found_above is " << search.found_above
+          << ", must not be below search/lost_below, which is " << search.lost_below;
+    faults.add(fault.str());
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> faultsOf(const ChainModel& model) {
+  FaultList faults;
+  faults.requireText("name", model.name);
+  if (model.segments.size() != 1) {
+    faults.add("segments has " + std::to_string(model.segments.size()) +
+               " entries, must have exactly 1");
+  }
+  for (size_t i = 0; i < model.segments.size(); ++i) {
+    checkSegment(model.segments[i], "segments[" + std::to_string(i) + "]/", faults);
+  }
+  checkAppearance(model.appearance, faults);
+  checkSearch(model.search, faults);
+  return faults.take();
+}
+
+}  // namespace chain_tracker

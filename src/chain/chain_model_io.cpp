@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/chain/chain_model_io.h"
+
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include <yaml-cpp/yaml.h>
+
+namespace chain_tracker {
+namespace {
+
+/// One place in a document: for errors that name file, line and key.
+class Reader {
+ public:
+  Reader(YAML::Node node, std::string source, std::string path)
+      : node_(std::move(node)), source_(std::move(source)), path_(std::move(path)) {}
+
+  using Readers = std::map<std::string, std::function<void(const Reader&)>>;
+
+  /// Reads a map; every key must have a reader.
+  void readMap(const Readers& readers) const {
+    if (!node_.IsMap()) refuse("must be a map of keys");
+    for (const auto& entry : node_) {
+      const Reader key(entry.first, source_, path_);
+      const std::string name = key.as<std::string>("a name");
+      const auto reader = readers.find(name);
+      if (reader == readers.end()) {
+        key.refuse("unknown key '" + name + "', must be one of: " + namesOf(readers));
+      }
+      reader->second(Reader(entry.second, source_, path_ + "/" + name));
+    }
+  }
+
+  std::vector<Reader> items() const {
+    if (!node_.IsSequence()) refuse("must be a list");
+    std::vector<Reader> items;
+    for (size_t i = 0; i < node_.size(); ++i) {
+      items.emplace_back(node_[i], source_, path_ + "[" + std::to_string(i) + "]");
+    }
+    return items;
+  }
+
+  template <typename Value>
+  Value as(const std::string& kind) const {
+    try {
+      return node_.as<Value>();
+    } catch (const YAML::Exception&) {
+      refuse("is '" + textOf(node_) + "', must be " + kind);
+    }
+  }
+
+  void read(int& value) const { value = as<int>("a whole number"); }
+  void read(double& value) const { value = as<double>("a number"); }
+  void read(std::string& value) const { value = as<std::string>("text"); }
+  void read(Layout& value) const {
+    const std::map<std::string, Layout> layouts = {{"elongated", Layout::kElongated},
+                                                   {"planar", Layout::kPlanar},
+                                                   {"deformable", Layout::kDeformable}};
+    const std::string name = as<std::string>("text");
+    const auto layout = layouts.find(name);
+    if (layout == layouts.end()) {
+      refuse("is '" + name + "', must be one of: " + namesOf(layouts));
+    }
+    value = layout->second;
+  }
+
+  [[noreturn]] void refuse(const std::string& reason) const {
+    const std::string key = path_.empty() ? "" : path_.substr(1) + " ";
+    throw std::invalid_argument(source_ + ":" + std::to_string(node_.Mark().line + 1) + ": " + key +
+                                reason);
+  }
+
+ private:
+  template <typename Map>
+  static std::string namesOf(const Map& map) {
+    std::string names;
+    for (const auto& entry : map) names += (names.empty() ? "" : ", ") + entry.first;
+    return names;
+  }
+
+  static std::string textOf(const YAML::Node& node) {
+    std::ostringstream text;
+    text << node;
+    return text.str();
+  }
+
+  YAML::Node node_;
+  std::string source_;
+  std::string path_;
+};
+
+template <typename Value>
+std::function<void(const Reader&)> into(Value& value) {
+  return [&value](const Reader& reader) { reader.read(value); };
+}
+
+void readSegment(const Reader& reader, SegmentModel& segment) {
+  reader.readMap({{"name", into(segment.name)},
+                  {"layout", into(segment.layout)},
+                  {"parts", into(segment.parts)},
+                  {"aspect", into(segment.aspect)},
+                  {"window", into(segment.window)},
+                  {"stretch_sigma", into(segment.stretch_sigma)},
+                  {"bend_sigma", into(segment.bend_sigma)},
+                  {"orientation_hypotheses", into(segment.orientation_hypotheses)},
+                  {"orientation_step", into(segment.orientation_step)},
+                  {"orientation_sigma", into(segment.orientation_sigma)},
+                  {"scale_hypotheses", into(segment.scale_hypotheses)},
+                  {"scale_step", into(segment.scale_step)},
+                  {"scale_sigma", into(segment.scale_sigma)}});
+}
+
+void readAppearance(const Reader& reader, AppearanceModel& appearance) {
+  reader.readMap({{"palette_colors", into(appearance.palette_colors)},
+                  {"ring", into(appearance.ring)},
+                  {"min_object_share", into(appearance.min_object_share)},
+                  {"weight", into(appearance.weight)}});
+}
+
+void readSearch(const Reader& reader, SearchModel& search) {
+  reader.readMap({{"radius", into(search.radius)},
+                  {"lost_below", into(search.lost_below)},
+                  {"found_above", into(search.found_above)},
+                  {"occluded_below", into(search.occluded_below)}});
+}
+
+void readSegments(const Reader& reader, std::vector<SegmentModel>& segments) {
+  segments.clear();
+  for (const Reader& item : reader.items()) {
+    segments.emplace_back();
+    readSegment(item, segments.back());
+  }
+}
+
+void requireUsable(const ChainModel& model, const std::string& source) {
+  std::string message;
+  for (const std::string& fault : faultsOf(model)) {
+    message += (message.empty() ? "" : "\n") + source + ": " + fault;
+  }
+  if (!message.empty()) throw std::invalid_argument(message);
+}
+
+}  // namespace
+
+ChainModel parseChainModel(const std::string& yaml, const std::string& source) {
+  YAML::Node document;
+  try {
+    document = YAML::Load(yaml);
+  } catch (const YAML::ParserException& error) {
+    throw std::invalid_argument(source + ":" + std::to_string(error.mark.line + 1) +
+                                ": not valid YAML: " + error.msg);
+  }
+  ChainModel model;
+  Reader(document, source, "")
+      .readMap({{"name", into(model.name)},
+                {"segments", [&](const Reader& r) { readSegments(r, model.segments); }},
+                {"appearance", [&](const Reader& r) { readAppearance(r, model.appearance); }},
+                {"search", [&](const Reader& r) { readSearch(r, model.search); }}});
+  requireUsable(model, source);
+  return model;
+}
+
+ChainModel loadChainModel(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::invalid_argument("model file " + path + " cannot be read");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return parseChainModel(text.str(), path);
+}
+
+}  // namespace chain_tracker

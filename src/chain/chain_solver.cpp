@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/chain/chain_solver.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace chain_tracker {
+namespace {
+
+struct CheapestState {
+  cv::Point state;
+  float cost = std::numeric_limits<float>::infinity();
+};
+
+CheapestState cheapestState(const cv::Mat1f& map) {
+  CheapestState cheapest;
+  for (int row = 0; row < map.rows; ++row) {
+    const float* costs = map[row];
+    const float* smallest = std::min_element(costs, costs + map.cols);
+    if (*smallest < cheapest.cost) {
+      cheapest = {{static_cast<int>(smallest - costs), row}, *smallest};
+    }
+  }
+  return cheapest;
+}
+
+/// The state of part k from which its best successor in `state` is reached.
+cv::Point bestPredecessor(const cv::Mat1f& forward, const EdgeStencil& edge,
+                          const cv::Point& state) {
+  const cv::Rect map(cv::Point(), forward.size());
+  cv::Point best(-1, -1);
+  float best_cost = std::numeric_limits<float>::infinity();
+  for (const StencilOffset& offset : edge) {
+    const cv::Point previous(state.x - offset.columns, state.y - offset.rows);
+    if (!map.contains(previous)) continue;
+    const float cost = forward(previous) + offset.cost;
+    if (cost < best_cost) {
+      best_cost = cost;
+      best = previous;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+double forwardPass(const std::vector<cv::Mat1f>& unary, const std::vector<EdgeStencil>& edges,
+                   ChainSolverWorkspace& workspace) {
+  workspace.forward.resize(unary.size());
+  unary.front().copyTo(workspace.forward.front());
+  for (size_t k = 1; k < unary.size(); ++k) {
+    cv::Mat1f& forward = workspace.forward[k];
+    minConvolve(workspace.forward[k - 1], edges[k - 1], forward, workspace.convolution);
+    forward += unary[k];
+  }
+  return cheapestState(workspace.forward.back()).cost;
+}
+
+std::vector<cv::Point> traceBack(const std::vector<EdgeStencil>& edges,
+                                 const ChainSolverWorkspace& workspace) {
+  std::vector<cv::Point> states(workspace.forward.size());
+  states.back() = cheapestState(workspace.forward.back()).state;
+  for (size_t k = edges.size(); k > 0; --k) {
+    states[k - 1] = bestPredecessor(workspace.forward[k - 1], edges[k - 1], states[k]);
+  }
+  return states;
+}
+
+void minMarginals(const std::vector<cv::Mat1f>& unary, const std::vector<EdgeStencil>& edges,
+                  std::vector<cv::Mat1f>& marginals, ChainSolverWorkspace& workspace) {
+  const size_t parts = unary.size();
+  marginals.resize(parts);
+  workspace.backward.resize(parts);
+  workspace.forward.back().copyTo(marginals.back());
+  for (size_t k = parts - 1; k > 0; --k) {
+    workspace.sum.create(unary[k].size());
+    unary[k].copyTo(workspace.sum);
+    if (k + 1 < parts) workspace.sum += workspace.backward[k];
+    minConvolve(workspace.sum, reversed(edges[k - 1]), workspace.backward[k - 1],
+                workspace.convolution);
+    cv::add(workspace.forward[k - 1], workspace.backward[k - 1], marginals[k - 1]);
+  }
+}
+
+}  // namespace chain_tracker

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/chain/edge_stencil.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "chain_tracker/image/pixel_geometry.h"
+
+namespace chain_tracker {
+namespace {
+
+constexpr double kCutOffSigmas = 3.0;
+
+double square(double x) { return x * x; }
+
+/// Upright bounds of all edges within the cut-off [px].
+cv::Rect2d cutOffBounds(const EdgePotential& potential) {
+  const double low = std::max(0.0, potential.length - kCutOffSigmas * potential.length_sigma);
+  const double high = potential.length + kCutOffSigmas * potential.length_sigma;
+  const double spread = std::min(CV_PI, kCutOffSigmas * potential.direction_sigma);
+  std::vector<cv::Point2d> extremes;
+  const auto add = [&](double angle) {
+    const cv::Point2d unit(std::cos(angle), std::sin(angle));
+    extremes.push_back(low * unit);
+    extremes.push_back(high * unit);
+  };
+  add(potential.direction - spread);
+  add(potential.direction + spread);
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const double axis = quarter * CV_PI / 2.0;
+    if (std::abs(wrapAngle(axis - potential.direction)) <= spread) add(axis);
+  }
+  return uprightBounds(extremes);
+}
+
+cv::Point nearestStep(const EdgePotential& potential, int step) {
+  return {static_cast<int>(std::lround(potential.length * std::cos(potential.direction) / step)),
+          static_cast<int>(std::lround(potential.length * std::sin(potential.direction) / step))};
+}
+
+}  // namespace
+
+double EdgePotential::at(const cv::Point2d& edge) const {
+  const double turn = wrapAngle(directionOf(edge) - direction);
+  return 0.5 * square((cv::norm(edge) - length) / length_sigma) +
+         0.5 * square(turn / direction_sigma);
+}
+
+EdgePotential onLattice(EdgePotential potential, double step) {
+  const double rounding = square(step) / 6.0;
+  potential.length_sigma = std::sqrt(square(potential.length_sigma) + rounding);
+  potential.direction_sigma =
+      std::sqrt(square(potential.direction_sigma) + rounding / square(potential.length));
+  return potential;
+}
+
+EdgeStencil sampleEdge(const EdgePotential& potential, int step) {
+  const cv::Rect2d bounds = cutOffBounds(potential);
+  const auto first = [&](double low) { return static_cast<int>(std::ceil(low / step)); };
+  const auto last = [&](double high) { return static_cast<int>(std::floor(high / step)); };
+  EdgeStencil stencil;
+  for (int rows = first(bounds.y); rows <= last(bounds.br().y); ++rows) {
+    for (int columns = first(bounds.x); columns <= last(bounds.br().x); ++columns) {
+      const cv::Point2d edge(columns * step, rows * step);
+      const double stretch = std::abs(cv::norm(edge) - potential.length);
+      if (stretch > kCutOffSigmas * potential.length_sigma) continue;
+      const double turn = std::abs(wrapAngle(directionOf(edge) - potential.direction));
+      if (turn > kCutOffSigmas * potential.direction_sigma) continue;
+      stencil.push_back({columns, rows, static_cast<float>(potential.at(edge))});
+    }
+  }
+  if (stencil.empty()) {
+    const cv::Point nearest = nearestStep(potential, step);
+    stencil.push_back({nearest.x, nearest.y, static_cast<float>(potential.at(nearest * step))});
+  }
+  return stencil;
+}
+
+EdgeStencil betweenStates(const EdgeStencil& stencil, const cv::Point& origin,
+                          const cv::Size& reach) {
+  EdgeStencil shifted;
+  shifted.reserve(stencil.size());
+  for (const StencilOffset& offset : stencil) {
+    const int columns = offset.columns - origin.x;
+    const int rows = offset.rows - origin.y;
+    if (std::abs(columns) > reach.width || std::abs(rows) > reach.height) continue;
+    shifted.push_back({columns, rows, offset.cost});
+  }
+  return shifted;
+}
+
+}  // namespace chain_tracker

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/chain/part_costs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "chain_tracker/image/multiversion.h"
+#include "chain_tracker/image/pixel_geometry.h"
+
+namespace chain_tracker {
+namespace {
+
+/// coefficient[x] += learned * seen[x]
+CHAIN_TRACKER_MULTIVERSION
+void accumulateRow(const float* __restrict seen, float learned, float* __restrict coefficient,
+                   int columns) {
+  for (int x = 0; x < columns; ++x) coefficient[x] += learned * seen[x];
+}
+
+CHAIN_TRACKER_MULTIVERSION
+void coefficientToCostRow(float* __restrict value, float weight, int columns) {
+  for (int x = 0; x < columns; ++x) {
+    const float distance = 1.0F - value[x];
+    value[x] = weight * std::sqrt(distance > 0.0F ? distance : 0.0F);
+  }
+}
+
+void computePartCost(const std::vector<cv::Mat1f>& roots, const RootHistogram& part,
+                     const cv::Point& corner, float weight, cv::Mat1f& cost) {
+  for (int row = 0; row < cost.rows; ++row) {
+    float* out = cost[row];
+    std::fill(out, out + cost.cols, 0.0F);
+    for (size_t entry = 0; entry < part.size(); ++entry) {
+      if (part[entry] == 0.0F) continue;
+      accumulateRow(roots[entry][corner.y + row] + corner.x, part[entry], out, cost.cols);
+    }
+    coefficientToCostRow(out, weight, cost.cols);
+  }
+}
+
+}  // namespace
+
+CandidateGrid makeCandidateGrid(const std::vector<cv::Point2d>& centers, double side, int step,
+                                double radius) {
+  const int window_cells = std::max(1, static_cast<int>(std::lround(side / step)));
+  const int reach = std::max(1, static_cast<int>(std::ceil(radius / step)));
+  const cv::Rect2d bounds = uprightBounds(centers);
+  CandidateGrid grid;
+  grid.states = {2 * reach + 1, 2 * reach + 1};
+  grid.lattice.step = step;
+  grid.lattice.window_cells = window_cells;
+  // The window centred at the first candidate of the leftmost and topmost parts starts here.
+  const double half = 0.5 * (window_cells * step - 1);
+  grid.lattice.origin = {static_cast<int>(std::lround(bounds.x - half)) - reach * step,
+                         static_cast<int>(std::lround(bounds.y - half)) - reach * step};
+  const cv::Point2d first = grid.lattice.centerOf(0, 0);
+  const auto corner = [&](double center, double first_center) {
+    return std::max(0, static_cast<int>(std::lround((center - first_center) / step)) - reach);
+  };
+  for (const cv::Point2d& center : centers) {
+    grid.corners.emplace_back(corner(center.x, first.x), corner(center.y, first.y));
+  }
+  for (const cv::Point& first_state : grid.corners) {
+    grid.lattice.size.width = std::max(grid.lattice.size.width, first_state.x + grid.states.width);
+    grid.lattice.size.height =
+        std::max(grid.lattice.size.height, first_state.y + grid.states.height);
+  }
+  return grid;
+}
+
+void computePartCosts(const cv::Mat& image, const ColorPalette& palette,
+                      const std::vector<RootHistogram>& parts, const CandidateGrid& grid,
+                      double weight, std::vector<cv::Mat1f>& costs, PartCostsWorkspace& workspace) {
+  computeWindowHistograms(image, palette, grid.lattice, workspace.roots, workspace.histograms);
+  costs.resize(parts.size());
+  for (size_t k = 0; k < parts.size(); ++k) {
+    costs[k].create(grid.states);
+    computePartCost(workspace.roots, parts[k], grid.corners[k], static_cast<float>(weight),
+                    costs[k]);
+  }
+}
+
+RootHistogram learnPart(const cv::Mat& image, const ColorPalette& palette,
+                        const cv::Point2d& center, double side) {
+  WindowLattice lattice;
+  lattice.window_cells = std::max(1, static_cast<int>(std::lround(side)));
+  const double half = 0.5 * (lattice.window_cells - 1);
+  lattice.origin = {static_cast<int>(std::lround(center.x - half)),
+                    static_cast<int>(std::lround(center.y - half))};
+  lattice.size = {1, 1};
+  std::vector<cv::Mat1f> roots;
+  WindowHistogramsWorkspace workspace;
+  computeWindowHistograms(image, palette, lattice, roots, workspace);
+  RootHistogram histogram;
+  for (const cv::Mat1f& root : roots) histogram.push_back(root(0, 0));
+  return histogram;
+}
+
+}  // namespace chain_tracker

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/chain/similarity_fit.h"
+
+#include <cmath>
+
+namespace chain_tracker {
+namespace {
+
+cv::Point2d weightedMean(const std::vector<cv::Point2d>& points,
+                         const std::vector<double>& weights) {
+  cv::Point2d sum;
+  double total = 0.0;
+  for (size_t k = 0; k < points.size(); ++k) {
+    sum += weights[k] * points[k];
+    total += weights[k];
+  }
+  return sum / total;
+}
+
+}  // namespace
+
+Similarity fitSimilarity(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2d>& to,
+                         const std::vector<double>& weights) {
+  const cv::Point2d from_mean = weightedMean(from, weights);
+  const cv::Point2d to_mean = weightedMean(to, weights);
+  double spread = 0.0;
+  double dot = 0.0;
+  double cross = 0.0;
+  for (size_t k = 0; k < from.size(); ++k) {
+    const cv::Point2d a = from[k] - from_mean;
+    const cv::Point2d b = to[k] - to_mean;
+    spread += weights[k] * a.dot(a);
+    dot += weights[k] * a.dot(b);
+    cross += weights[k] * a.cross(b);
+  }
+  Similarity fit;
+  if (spread > 0.0) {
+    fit.angle = std::atan2(cross, dot);
+    fit.scale = std::hypot(dot, cross) / spread;
+  }
+  fit.translation = to_mean - Similarity{fit.angle, fit.scale, {}}.apply(from_mean);
+  return fit;
+}
+
+cv::Point2d fitTranslation(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2d>& to,
+                           const std::vector<double>& weights, double angle, double scale) {
+  return weightedMean(to, weights) -
+         Similarity{angle, scale, {}}.apply(weightedMean(from, weights));
+}
+
+}  // namespace chain_tracker

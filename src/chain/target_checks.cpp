@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/chain/target_checks.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace chain_tracker {
+namespace {
+
+/// A smaller part has no histogram worth the name [px].
+constexpr double kSmallestSide = 4.0;
+
+}  // namespace
+
+std::string textOf(const cv::Size& size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+void requireModel(const ChainModel& model) {
+  std::string message;
+  for (const std::string& fault : faultsOf(model)) {
+    message += (message.empty() ? "model " + model.name + ": " : "; ") + fault;
+  }
+  if (!message.empty()) throw std::invalid_argument(message);
+}
+
+void requireImage(const cv::Mat& image) {
+  if (image.empty()) throw std::invalid_argument("the image is empty");
+  if (image.type() == CV_8UC3 || image.type() == CV_8UC1) return;
+  throw std::invalid_argument("the image's type is " + cv::typeToString(image.type()) +
+                              ", must be CV_8UC3 or CV_8UC1");
+}
+
+void requireSameKind(const cv::Mat& image, const cv::Size& first_size, int first_type) {
+  requireImage(image);
+  if (image.size() == first_size && image.type() == first_type) return;
+  throw std::invalid_argument("the image is " + textOf(image.size()) + " " +
+                              cv::typeToString(image.type()) + ", must be " + textOf(first_size) +
+                              " " + cv::typeToString(first_type) + " as at initialisation");
+}
+
+void requirePartsFit(const ChainLayout& layout, const cv::Size& image_size) {
+  const double largest = std::min(image_size.width, image_size.height);
+  for (const SegmentLayout& segment : layout.segments) {
+    const double side = segment.parts.front().side;
+    if (side >= kSmallestSide && side <= largest) continue;
+    std::ostringstream message;
+    message << "the " << segment.parts.size() << " parts of segment " << segment.name << " are "
+            << side << " px wide, must be from " << kSmallestSide << " to " << largest
+            << " px, the shorter side of the " << textOf(image_size) << " image";
+    throw std::invalid_argument(message.str());
+  }
+}
+
+void requireInside(const Silhouette& silhouette, const cv::Size& image_size) {
+  const cv::Rect2d bounds = uprightBounds(silhouette.points);
+  const cv::Rect2d image(-0.5, -0.5, image_size.width, image_size.height);
+  const cv::Rect2d grown(bounds.x - 0.5, bounds.y - 0.5, bounds.width + 1.0, bounds.height + 1.0);
+  if ((grown & image).area() >= 0.5 * grown.area()) return;
+  std::ostringstream message;
+  message << "the target spans x " << bounds.x << " to " << bounds.br().x << " and y " << bounds.y
+          << " to " << bounds.br().y << " px, must lie at least half inside the "
+          << textOf(image_size) << " image";
+  throw std::invalid_argument(message.str());
+}
+
+}  // namespace chain_tracker

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/chain/tracking_status.h"
+
+namespace chain_tracker {
+
+std::string toString(TrackingStatus status) {
+  switch (status) {
+    case TrackingStatus::kInitializing:
+      return "INITIALIZING";
+    case TrackingStatus::kTracking:
+      return "TRACKING";
+    case TrackingStatus::kOccluded:
+      return "OCCLUDED";
+    case TrackingStatus::kLost:
+      return "LOST";
+  }
+  return "UNKNOWN";
+}
+
+TrackingStatus nextStatus(TrackingStatus previous, double confidence, bool all_parts_visible,
+                          const SearchModel& model) {
+  const bool was_lost = previous == TrackingStatus::kLost;
+  const double needed = was_lost ? model.found_above : model.lost_below;
+  if (confidence < needed) return TrackingStatus::kLost;
+  return all_parts_visible ? TrackingStatus::kTracking : TrackingStatus::kOccluded;
+}
+
+}  // namespace chain_tracker

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/image/color_palette.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <opencv2/imgproc.hpp>
+
+namespace chain_tracker {
+namespace {
+
+constexpr int kBits = 5;
+constexpr int kLevels = 1 << kBits;
+constexpr int kShift = 8 - kBits;
+/// Enough for 24 clusters; more pixels change the centres by less than a level.
+constexpr int kMaxSamples = 6000;
+
+struct Samples {
+  cv::Mat3b colors;  // BGR, one row
+  std::vector<bool> on_object;
+};
+
+cv::Vec3b colorAt(const cv::Mat& image, int row, int column) {
+  if (image.channels() == 3) return image.at<cv::Vec3b>(row, column);
+  const uchar grey = image.at<uchar>(row, column);
+  return {grey, grey, grey};
+}
+
+Samples sampleColors(const cv::Mat& image, const cv::Mat1b& object, const cv::Mat1b& ring) {
+  const int count = cv::countNonZero(object | ring);
+  const int stride = std::max(1, count / kMaxSamples);
+  Samples samples;
+  int seen = 0;
+  for (int row = 0; row < image.rows; ++row) {
+    for (int column = 0; column < image.cols; ++column) {
+      const bool on_object = object(row, column) != 0;
+      if (!on_object && ring(row, column) == 0) continue;
+      if (seen++ % stride != 0) continue;
+      samples.colors.push_back(colorAt(image, row, column));
+      samples.on_object.push_back(on_object);
+    }
+  }
+  samples.colors = samples.colors.reshape(3, 1);
+  return samples;
+}
+
+cv::Mat toLab(const cv::Mat3b& colors) {
+  cv::Mat scaled;
+  colors.convertTo(scaled, CV_32FC3, 1.0 / 255.0);
+  cv::Mat lab;
+  cv::cvtColor(scaled, lab, cv::COLOR_BGR2Lab);
+  return lab.reshape(1, static_cast<int>(colors.total()));
+}
+
+/// cv::kmeans draws from the thread's generator; a fixed state makes the palette reproducible and
+/// leaves the caller's sequence of random numbers as it was.
+cv::Mat1f clusterCenters(const cv::Mat& lab, int clusters, cv::Mat1i& labels) {
+  const cv::RNG callers_generator = cv::theRNG();
+  cv::theRNG() = cv::RNG(1);
+  cv::Mat1f centers;
+  const cv::TermCriteria criteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.2);
+  cv::kmeans(lab, clusters, labels, criteria, 1, cv::KMEANS_PP_CENTERS, centers);
+  cv::theRNG() = callers_generator;
+  return centers;
+}
+
+/// Share of the object in each cluster, as if object and ring had the same number of pixels.
+std::vector<double> objectShares(const Samples& samples, const cv::Mat1i& labels, int clusters) {
+  std::vector<double> object(static_cast<size_t>(clusters), 0.0);
+  std::vector<double> ring(static_cast<size_t>(clusters), 0.0);
+  double object_total = 0.0;
+  for (size_t i = 0; i < samples.on_object.size(); ++i) {
+    const auto label = static_cast<size_t>(labels(static_cast<int>(i)));
+    (samples.on_object[i] ? object : ring)[label] += 1.0;
+    object_total += samples.on_object[i] ? 1.0 : 0.0;
+  }
+  const double ring_total = static_cast<double>(samples.on_object.size()) - object_total;
+  std::vector<double> shares(static_cast<size_t>(clusters), 0.0);
+  for (size_t c = 0; c < shares.size(); ++c) {
+    const double p_object = object[c] / std::max(object_total, 1.0);
+    const double p_ring = ring[c] / std::max(ring_total, 1.0);
+    if (p_object + p_ring > 0.0) shares[c] = p_object / (p_object + p_ring);
+  }
+  return shares;
+}
+
+/// Palette entry of each cluster: its own, or "other".
+std::vector<std::uint8_t> entriesOf(const std::vector<double>& shares, double min_share) {
+  const double largest = *std::max_element(shares.begin(), shares.end());
+  const double limit = std::min(min_share, largest);
+  std::vector<std::uint8_t> entries;
+  std::uint8_t next = ColorPalette::kOther;
+  for (double share : shares) {
+    entries.push_back(share >= limit ? ++next : ColorPalette::kOther);
+  }
+  return entries;
+}
+
+std::uint8_t nearestEntry(const float* lab, const cv::Mat1f& centers,
+                          const std::vector<std::uint8_t>& entries) {
+  int nearest = 0;
+  float nearest_distance = std::numeric_limits<float>::infinity();
+  for (int c = 0; c < centers.rows; ++c) {
+    const float* center = centers[c];
+    const float dl = lab[0] - center[0];
+    const float da = lab[1] - center[1];
+    const float db = lab[2] - center[2];
+    const float distance = dl * dl + da * da + db * db;
+    if (distance < nearest_distance) {
+      nearest_distance = distance;
+      nearest = c;
+    }
+  }
+  return entries[static_cast<size_t>(nearest)];
+}
+
+std::vector<std::uint8_t> nearestEntries(const cv::Mat3b& colors, const cv::Mat1f& centers,
+                                         const std::vector<std::uint8_t>& entries) {
+  const cv::Mat1f lab = toLab(colors);
+  std::vector<std::uint8_t> table(colors.total());
+  for (int i = 0; i < lab.rows; ++i) {
+    table[static_cast<size_t>(i)] = nearestEntry(lab[i], centers, entries);
+  }
+  return table;
+}
+
+/// The colour in the middle of each cell of the lookup table, in table order.
+cv::Mat3b tableColors() {
+  cv::Mat3b colors(1, kLevels * kLevels * kLevels);
+  const auto level = [](int index) {
+    return static_cast<uchar>(((index & (kLevels - 1)) << kShift) + (1 << (kShift - 1)));
+  };
+  for (int i = 0; i < colors.cols; ++i) {
+    colors(0, i) = {level(i >> (2 * kBits)), level(i >> kBits), level(i)};
+  }
+  return colors;
+}
+
+cv::Mat3b greyLevels() {
+  cv::Mat3b colors(1, 256);
+  for (int i = 0; i < 256; ++i) colors(0, i) = cv::Vec3b::all(static_cast<uchar>(i));
+  return colors;
+}
+
+}  // namespace
+
+ColorPalette::ColorPalette(const cv::Mat& image, const cv::Mat1b& object, const cv::Mat1b& ring,
+                           const PaletteOptions& options) {
+  const Samples samples = sampleColors(image, object, ring);
+  const cv::Mat lab = toLab(samples.colors);
+  cv::Mat1i labels;
+  const int clusters = std::min(options.colors, lab.rows);
+  const cv::Mat1f centers = clusterCenters(lab, clusters, labels);
+  const std::vector<std::uint8_t> entries =
+      entriesOf(objectShares(samples, labels, clusters), options.min_object_share);
+  size_ = 1 + *std::max_element(entries.begin(), entries.end());
+  if (image.channels() == 3) {
+    bgr_table_ = nearestEntries(tableColors(), centers, entries);
+  } else {
+    grey_table_ = nearestEntries(greyLevels(), centers, entries);
+  }
+}
+
+void ColorPalette::classify(const cv::Mat& image, const cv::Rect& region,
+                            cv::Mat1b& entries) const {
+  entries.create(region.size());
+  const cv::Rect inside = region & cv::Rect(0, 0, image.cols, image.rows);
+  if (inside != region) entries.setTo(kOther);
+  for (int row = inside.y; row < inside.y + inside.height; ++row) {
+    uchar* out = entries[row - region.y] + (inside.x - region.x);
+    if (image.channels() == 3) {
+      const uchar* bgr = image.ptr(row, inside.x);
+      const std::uint8_t* table = bgr_table_.data();
+      for (int i = 0; i < inside.width; ++i, bgr += 3) {
+        out[i] = table[((bgr[0] >> kShift) << (2 * kBits)) | ((bgr[1] >> kShift) << kBits) |
+                       (bgr[2] >> kShift)];
+      }
+    } else {
+      const uchar* grey = image.ptr(row, inside.x);
+      for (int i = 0; i < inside.width; ++i) out[i] = grey_table_[grey[i]];
+    }
+  }
+}
+
+}  // namespace chain_tracker

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/image/pixel_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chain_tracker {
+
+double wrapAngle(double angle) {
+  const double wrapped = std::remainder(angle, 2.0 * CV_PI);
+  return wrapped <= -CV_PI ? CV_PI : wrapped;
+}
+
+double directionOf(const cv::Point2d& vector) { return std::atan2(vector.y, vector.x); }
+
+cv::Point2d Similarity::apply(const cv::Point2d& point) const {
+  const double c = scale * std::cos(angle);
+  const double s = scale * std::sin(angle);
+  return {c * point.x - s * point.y + translation.x, s * point.x + c * point.y + translation.y};
+}
+
+cv::Point2d Similarity::applyInverse(const cv::Point2d& point) const {
+  const cv::Point2d offset = point - translation;
+  const double c = std::cos(angle) / scale;
+  const double s = std::sin(angle) / scale;
+  return {c * offset.x + s * offset.y, -s * offset.x + c * offset.y};
+}
+
+cv::Rect2d uprightBounds(const std::vector<cv::Point2d>& points) {
+  CV_Assert(!points.empty());
+  cv::Point2d low = points.front();
+  cv::Point2d high = points.front();
+  for (const cv::Point2d& point : points) {
+    low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+    high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+  }
+  return {low, high};
+}
+
+}  // namespace chain_tracker
