@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The objects of one nodelet: started, tracked through the frames, started again, removed.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+#include <ros/time.h>
+
+#include "chain_tracker/TrackedObject.h"
+#include "chain_tracker/chain/chain_tracker.h"
+#include "chain_tracker/ros/frame_mailbox.h"
+#include "chain_tracker/ros/image_history.h"
+#include "chain_tracker/ros/target_request.h"
+
+namespace chain_tracker {
+
+/// What one frame brought.
+struct FrameResult {
+  std::vector<TrackedObject> objects;  ///< in alphabetical order of id
+  struct Fault {
+    std::string id;      ///< of the object
+    std::string reason;  ///< one sentence
+  };
+  std::vector<Fault> faults;
+  std::vector<std::string> notes;  ///< what was started again and why, one sentence each
+};
+
+/// Thread-safe: the worker calls process(), services call the rest at any time.
+class TargetRegistry {
+ public:
+  /// Told once how a start went: the reason for refusing it, or nothing if the object is tracked
+  /// now. Must not call the registry.
+  using Answer = std::function<void(const std::string& refusal)>;
+
+  /// Starts an object on the next frame. One of the same id is replaced if that succeeds.
+  /// Returns a ticket for withdraw().
+  std::uint64_t startAtNextFrame(const TargetRequest& request, const ChainModel& model,
+                                 Answer answer);
+
+  /// Takes a start back that waits for its frame. False if it was answered already.
+  bool withdraw(std::uint64_t ticket);
+
+  /// Starts an object on a frame of the past and tracks it through the later ones in the history.
+  /// Throws std::invalid_argument with the reason; then all is as before.
+  void startAt(const Frame& frame, const TargetRequest& request, const ChainModel& model,
+               const ImageHistory& history);
+
+  /// False if there is no such object.
+  bool remove(const std::string& id);
+
+  /// Starts all objects again on the next frame, from the points given; returns their number.
+  std::size_t restartAll();
+
+  /// Refuses all objects that wait or come later.
+  void close();
+
+  /// Tracks all objects into the next frame; `image` are its pixels (CV_8UC3 BGR).
+  ///
+  /// An object is started again from the points given if restartAll() was called or the stamp lies
+  /// before the last one (a bag that starts again); from where it is now, scaled, if the image's
+  /// size has changed. An object that cannot be started again is removed.
+  /// One object's fault does not touch the others, and nothing is thrown.
+  FrameResult process(const Frame& frame, const cv::Mat& image);
+
+ private:
+  struct Target {
+    std::vector<cv::Point2d> given_points;  ///< [px] of images of size image_size
+    cv::Size image_size;
+    ChainTracker tracker;
+    std::uint64_t frame_number;  ///< of the last frame it has seen
+    ros::Time stamp;             ///< of that frame
+    bool restart = false;        ///< on the next frame
+  };
+  struct Waiting {
+    std::uint64_t ticket;
+    TargetRequest request;
+    ChainModel model;
+    Answer answer;
+  };
+
+  static Target start(const Frame& frame, const cv::Mat& image,
+                      const std::vector<cv::Point2d>& points, const ChainModel& model);
+  static void catchUp(const ImageHistory& history, std::uint64_t up_to, Target* target);
+  /// Why the frame does not follow the last one the target has seen; empty if it does.
+  static std::string breakInStream(const Frame& frame, const cv::Mat& image, const Target& target);
+  static void advance(const Frame& frame, const cv::Mat& image, Target* target);
+  void advanceAll(const Frame& frame, const cv::Mat& image, FrameResult* result);
+  void startWaiting(const Frame& frame, const cv::Mat& image);
+
+  std::mutex mutex_;
+  std::map<std::string, Target> targets_;
+  std::vector<Waiting> waiting_;
+  std::uint64_t last_ticket_ = 0;
+  std::uint64_t last_frame_ = 0;  ///< number of the last frame processed
+  bool closed_ = false;
+};
+
+}  // namespace chain_tracker

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/ros/model_folder.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+#include <ros/package.h>
+
+#include "chain_tracker/chain/auto_model.h"
+#include "chain_tracker/chain/chain_model_io.h"
+
+namespace chain_tracker {
+namespace {
+
+constexpr char kExtension[] = ".yaml";
+constexpr char kAuto[] = "auto";
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+std::string ModelFolder::ofThisPackage() {
+  const std::string package = ros::package::getPath("chain_tracker");
+  return package.empty() ? "" : package + "/config/models";
+}
+
+std::vector<std::string> ModelFolder::names() const {
+  std::vector<std::string> names;
+  std::error_code no_folder;  // a folder that cannot be read has no names
+  for (const auto& entry : std::filesystem::directory_iterator(path_, no_folder)) {
+    if (entry.path().extension() == kExtension) names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+ChainModel ModelFolder::load(const std::string& name_or_file) const {
+  if (std::filesystem::path(name_or_file).extension() == kExtension) {
+    return loadChainModel(name_or_file);
+  }
+  const std::vector<std::string> known = names();
+  if (!std::binary_search(known.begin(), known.end(), name_or_file)) {
+    throw std::invalid_argument("model '" + name_or_file + "' is unknown, must be auto, a file (*" +
+                                kExtension + ") or one of those in " +
+                                (path_.empty() ? "~models_folder (not set)" : path_) + ": " +
+                                joined(known));
+  }
+  return loadChainModel(path_ + "/" + name_or_file + kExtension);
+}
+
+ChainModel ModelFolder::loadFor(const std::vector<cv::Point2d>& points,
+                                const std::string& name_or_file) const {
+  return load(name_or_file == kAuto ? autoModelName(points) : name_or_file);
+}
+
+}  // namespace chain_tracker

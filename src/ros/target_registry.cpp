@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/ros/target_registry.h"
+
+#include <algorithm>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "chain_tracker/ros/image_conversion.h"
+#include "chain_tracker/ros/msg_conversion.h"
+
+namespace chain_tracker {
+namespace {
+
+constexpr char kClosed[] = "the tracker is being shut down";
+
+/// The points of an image of size `from`, in the same image at size `to`. Pixel centres lie on
+/// whole numbers, so the images share the corner (-0.5, -0.5).
+std::vector<cv::Point2d> rescaled(std::vector<cv::Point2d> points, const cv::Size& from,
+                                  const cv::Size& to) {
+  const cv::Point2d half(0.5, 0.5);
+  for (cv::Point2d& point : points) {
+    point += half;
+    point.x *= static_cast<double>(to.width) / from.width;
+    point.y *= static_cast<double>(to.height) / from.height;
+    point -= half;
+  }
+  return points;
+}
+
+std::vector<cv::Point2d> positionsOf(const std::vector<CarriedPoint>& points) {
+  std::vector<cv::Point2d> positions;
+  std::transform(points.begin(), points.end(), std::back_inserter(positions),
+                 [](const CarriedPoint& point) { return point.position; });
+  return positions;
+}
+
+}  // namespace
+
+std::uint64_t TargetRegistry::startAtNextFrame(const TargetRequest& request,
+                                               const ChainModel& model, Answer answer) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++last_ticket_;
+  if (closed_) {
+    answer(kClosed);
+  } else {
+    waiting_.push_back({last_ticket_, request, model, std::move(answer)});
+  }
+  return last_ticket_;
+}
+
+bool TargetRegistry::withdraw(std::uint64_t ticket) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto found = std::find_if(waiting_.begin(), waiting_.end(),
+                                  [=](const Waiting& waiting) { return waiting.ticket == ticket; });
+  if (found == waiting_.end()) return false;
+  waiting_.erase(found);
+  return true;
+}
+
+TargetRegistry::Target TargetRegistry::start(const Frame& frame, const cv::Mat& image,
+                                             const std::vector<cv::Point2d>& points,
+                                             const ChainModel& model) {
+  return {points, image.size(), ChainTracker(model, image, points), frame.number,
+          frame.image->header.stamp};
+}
+
+void TargetRegistry::startAt(const Frame& frame, const TargetRequest& request,
+                             const ChainModel& model, const ImageHistory& history) {
+  std::uint64_t last_frame = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    last_frame = last_frame_;
+  }
+  // Most frames are caught up with while the worker goes on; the lock is held for the few that it
+  // has processed meanwhile.
+  Target target = start(frame, toBgr8(frame.image)->image, request.points, model);
+  catchUp(history, last_frame, &target);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (closed_) throw std::invalid_argument(kClosed);
+  catchUp(history, last_frame_, &target);
+  targets_.insert_or_assign(request.id, std::move(target));
+}
+
+void TargetRegistry::catchUp(const ImageHistory& history, std::uint64_t up_to, Target* target) {
+  for (const Frame& frame : history.between(target->frame_number, up_to)) {
+    cv_bridge::CvImageConstPtr image;
+    try {
+      image = toBgr8(frame.image);
+    } catch (const std::invalid_argument&) {
+      continue;  // the worker has skipped and reported it, too
+    }
+    target->tracker.update(image->image);
+    target->frame_number = frame.number;
+    target->stamp = frame.image->header.stamp;
+  }
+}
+
+bool TargetRegistry::remove(const std::string& id) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return targets_.erase(id) > 0;
+}
+
+std::size_t TargetRegistry::restartAll() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (auto& [id, target] : targets_) target.restart = true;
+  return targets_.size();
+}
+
+void TargetRegistry::close() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  closed_ = true;
+  for (Waiting& waiting : waiting_) waiting.answer(kClosed);
+  waiting_.clear();
+}
+
+FrameResult TargetRegistry::process(const Frame& frame, const cv::Mat& image) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  FrameResult result;
+  advanceAll(frame, image, &result);
+  startWaiting(frame, image);
+  last_frame_ = frame.number;
+  for (const auto& [id, target] : targets_) {
+    // A target started on a frame that has yet to be processed is not told of before.
+    if (target.frame_number > frame.number) continue;
+    // A target that has failed on this frame is not known to be anywhere in it.
+    ChainState state = target.tracker.state();
+    if (target.frame_number < frame.number) state.status = TrackingStatus::kLost;
+    result.objects.push_back(toMsg(state, id, target.tracker.model().name, image.size()));
+  }
+  return result;
+}
+
+void TargetRegistry::advanceAll(const Frame& frame, const cv::Mat& image, FrameResult* result) {
+  for (auto entry = targets_.begin(); entry != targets_.end();) {
+    auto& [id, target] = *entry;
+    const std::string break_in_stream = breakInStream(frame, image, target);
+    bool keep = true;
+    try {
+      if (target.frame_number < frame.number) advance(frame, image, &target);
+      if (!break_in_stream.empty()) {
+        result->notes.push_back("'" + id + "' starts again: " + break_in_stream);
+      }
+    } catch (const std::exception& error) {
+      keep = break_in_stream.empty();
+      result->faults.push_back(
+          {id, keep ? error.what()
+                    : break_in_stream + ", it cannot start again and is removed: " + error.what()});
+    }
+    entry = keep ? std::next(entry) : targets_.erase(entry);
+  }
+}
+
+std::string TargetRegistry::breakInStream(const Frame& frame, const cv::Mat& image,
+                                          const Target& target) {
+  const ros::Time& stamp = frame.image->header.stamp;
+  std::ostringstream text;
+  if (target.frame_number >= frame.number) return "";
+  if (target.restart) {
+    text << "as it was asked to";
+  } else if (stamp < target.stamp) {
+    text << "time went back from " << target.stamp << " to " << stamp << " [s]";
+  } else if (image.size() != target.image_size) {
+    text << "the image's size changed from " << target.image_size << " to " << image.size()
+         << " px";
+  }
+  return text.str();
+}
+
+void TargetRegistry::advance(const Frame& frame, const cv::Mat& image, Target* target) {
+  const cv::Size old_size = target->image_size;
+  const ChainState& state = target->tracker.state();
+  const std::vector<cv::Point2d> given_points =
+      rescaled(target->given_points, old_size, image.size());
+  if (target->restart || frame.image->header.stamp < target->stamp) {
+    *target = start(frame, image, given_points, target->tracker.model());
+  } else if (image.size() != old_size) {
+    if (state.status == TrackingStatus::kLost) throw std::runtime_error("it is lost");
+    *target = start(frame, image, rescaled(positionsOf(state.points), old_size, image.size()),
+                    target->tracker.model());
+    target->given_points = given_points;
+  } else {
+    target->tracker.update(image);
+    target->frame_number = frame.number;
+    target->stamp = frame.image->header.stamp;
+  }
+}
+
+void TargetRegistry::startWaiting(const Frame& frame, const cv::Mat& image) {
+  for (const Waiting& waiting : waiting_) {
+    std::string refusal;
+    try {
+      targets_.insert_or_assign(waiting.request.id,
+                                start(frame, image, waiting.request.points, waiting.model));
+    } catch (const std::exception& error) {
+      refusal = error.what();
+    }
+    waiting.answer(refusal);
+  }
+  waiting_.clear();
+}
+
+}  // namespace chain_tracker

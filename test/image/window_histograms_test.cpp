@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/image/window_histograms.h"
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "support/brute_force.h"
+#include "support/guarded_map.h"
+#include "support/map_difference.h"
+#include "support/random_inputs.h"
+
+namespace chain_tracker {
+namespace {
+
+std::string textOf(const cv::Mat& image, const WindowLattice& lattice) {
+  std::ostringstream text;
+  text << "image " << image.size() << ", origin " << lattice.origin << ", step " << lattice.step
+       << ", windows of " << lattice.window_cells << " cells, positions " << lattice.size;
+  return text.str();
+}
+
+/// A palette of several entries, the same for every test image of its type.
+ColorPalette somePalette(int type) {
+  RandomInputs random(99);
+  const cv::Mat image = random.noise({40, 30}, type);
+  cv::Mat1b object(image.size(), uchar(0));
+  object(cv::Rect(10, 5, 20, 20)).setTo(255);
+  return {image, object, cv::Mat1b(~object), {8, 0.4}};
+}
+
+std::vector<cv::Mat1f> histogramsOf(const cv::Mat& image, const ColorPalette& palette,
+                                    const WindowLattice& lattice) {
+  std::vector<cv::Mat1f> roots;
+  WindowHistogramsWorkspace workspace;
+  computeWindowHistograms(image, palette, lattice, roots, workspace);
+  return roots;
+}
+
+/// Square roots of the shares of pixels, counted window by window.
+std::vector<cv::Mat1d> countedHistograms(const cv::Mat& image, const ColorPalette& palette,
+                                         const WindowLattice& lattice, long long& pixels) {
+  const cv::Mat1b entries = brute_force::entriesOf(image, palette);
+  std::vector<cv::Mat1d> roots;
+  for (int b = 0; b < palette.size(); ++b) roots.emplace_back(lattice.size);
+  for (int row = 0; row < lattice.size.height; ++row) {
+    for (int column = 0; column < lattice.size.width; ++column) {
+      const cv::Point corner = lattice.origin + cv::Point(column, row) * lattice.step;
+      const auto window = brute_force::countWindow(entries, palette.size(), corner,
+                                                   lattice.window_cells * lattice.step);
+      pixels += window.pixels;
+      for (size_t b = 0; b < roots.size(); ++b) {
+        roots[b](row, column) = std::sqrt(double(window.counts[b]) / window.pixels);
+      }
+    }
+  }
+  return roots;
+}
+
+void expectEqualsCounting(const cv::Mat& image, const ColorPalette& palette,
+                          const WindowLattice& lattice, const std::vector<cv::Mat1f>& roots) {
+  SCOPED_TRACE(textOf(image, lattice));
+  long long pixels = 0;
+  const std::vector<cv::Mat1d> counted = countedHistograms(image, palette, lattice, pixels);
+  const int side = lattice.window_cells * lattice.step;
+  EXPECT_EQ(1LL * lattice.size.area() * side * side, pixels) << "not every pixel was counted";
+  ASSERT_EQ(counted.size(), roots.size());
+  for (size_t b = 0; b < roots.size(); ++b) {
+    EXPECT_EQ("", firstDifference(counted[b], roots[b], 1e-6)) << "entry " << b;
+  }
+}
+
+TEST(WindowHistograms, equalCountingPixels) {
+  RandomInputs random(1);
+  for (int type : {CV_8UC3, CV_8UC1}) {
+    const ColorPalette palette = somePalette(type);
+    ASSERT_GT(palette.size(), 3);
+    for (int step = 1; step <= 7; ++step) {
+      for (int window_cells : {1, 2, 5}) {
+        const cv::Mat image = random.noise({37, 23}, type);
+        const WindowLattice lattice{{random.integer(-20, 20), random.integer(-20, 20)},
+                                    step,
+                                    window_cells,
+                                    {random.integer(1, 9), random.integer(1, 9)}};
+        expectEqualsCounting(image, palette, lattice, histogramsOf(image, palette, lattice));
+      }
+    }
+  }
+}
+
+TEST(WindowHistograms, equalCountingPixelsOfTheSmallestImages) {
+  RandomInputs random(2);
+  const ColorPalette palette = somePalette(CV_8UC3);
+  for (const cv::Size& size : {cv::Size(1, 1), cv::Size(1, 9), cv::Size(9, 1)}) {
+    for (int step : {1, 2, 3, 7}) {
+      const cv::Mat image = random.noise(size, CV_8UC3);
+      for (const cv::Point& origin : {cv::Point(0, 0), cv::Point(-5, -3), cv::Point(3, 8)}) {
+        const WindowLattice lattice{origin, step, 3, {4, 3}};
+        expectEqualsCounting(image, palette, lattice, histogramsOf(image, palette, lattice));
+        const WindowLattice one{origin, step, 1, {1, 1}};
+        expectEqualsCounting(image, palette, one, histogramsOf(image, palette, one));
+      }
+    }
+  }
+}
+
+TEST(WindowHistograms, equalCountingPixelsOfAViewOfALargerImage) {
+  RandomInputs random(3);
+  const ColorPalette palette = somePalette(CV_8UC3);
+  const cv::Mat view = random.noise({50, 40}, CV_8UC3)(cv::Rect(7, 9, 21, 17));
+  const WindowLattice lattice{{-4, -6}, 2, 4, {12, 10}};
+  expectEqualsCounting(view, palette, lattice, histogramsOf(view, palette, lattice));
+}
+
+TEST(WindowHistograms, windowsOutsideTheImageHoldOnlyOther) {
+  RandomInputs random(4);
+  const ColorPalette palette = somePalette(CV_8UC3);
+  const cv::Mat image = random.noise({20, 20}, CV_8UC3);
+  for (const cv::Point& origin : {cv::Point(100, 0), cv::Point(0, -100), cv::Point(-300, 300)}) {
+    const std::vector<cv::Mat1f> roots = histogramsOf(image, palette, {origin, 3, 2, {4, 4}});
+    EXPECT_EQ("", firstDifference(cv::Mat1f(4, 4, 1.0F), roots[ColorPalette::kOther], 1e-6));
+    for (size_t b = 1; b < roots.size(); ++b) {
+      EXPECT_EQ("", firstDifference(cv::Mat1f(4, 4, 0.0F), roots[b])) << "entry " << b;
+    }
+  }
+}
+
+TEST(WindowHistograms, sharesSumToOne) {
+  RandomInputs random(5);
+  const ColorPalette palette = somePalette(CV_8UC3);
+  const auto roots = histogramsOf(random.noise({64, 48}, CV_8UC3), palette, {{-8, -8}, 3, 6, {20, 15}});
+  cv::Mat1d sums(15, 20, 0.0);
+  for (const cv::Mat1f& root : roots) {
+    cv::Mat1d wide;
+    root.convertTo(wide, CV_64F);
+    sums += wide.mul(wide);
+  }
+  EXPECT_EQ("", firstDifference(cv::Mat1d(15, 20, 1.0), sums, 1e-5));
+}
+
+TEST(WindowHistograms, workspaceOfOtherSizesLeavesNoTrace) {
+  RandomInputs random(6);
+  const ColorPalette colors = somePalette(CV_8UC3);
+  const ColorPalette greys = somePalette(CV_8UC1);
+  std::vector<cv::Mat1f> roots;
+  WindowHistogramsWorkspace workspace;
+  const auto check = [&](int type, const ColorPalette& palette, const WindowLattice& lattice) {
+    const cv::Mat image = random.noise({30, 25}, type);
+    computeWindowHistograms(image, palette, lattice, roots, workspace);
+    expectEqualsCounting(image, palette, lattice, roots);
+  };
+  check(CV_8UC3, colors, {{-3, -3}, 2, 5, {14, 12}});
+  check(CV_8UC1, greys, {{5, 2}, 1, 3, {4, 4}});
+  check(CV_8UC3, colors, {{-9, 10}, 4, 2, {6, 2}});
+}
+
+TEST(WindowHistograms, writeNothingAroundTheirMaps) {
+  RandomInputs random(7);
+  const ColorPalette palette = somePalette(CV_8UC3);
+  const WindowLattice lattice{{-6, -2}, 3, 4, {7, 5}};
+  std::vector<GuardedMap> guards(static_cast<size_t>(palette.size()), GuardedMap({1, 1}, 0.0F));
+  std::vector<cv::Mat1f> roots;
+  for (GuardedMap& guard : guards) {
+    guard = GuardedMap(lattice.size, -5.0F);
+    roots.push_back(guard.map());
+  }
+  const cv::Mat image = random.noise({30, 25}, CV_8UC3);
+  WindowHistogramsWorkspace workspace;
+  computeWindowHistograms(image, palette, lattice, roots, workspace);
+  expectEqualsCounting(image, palette, lattice, roots);
+  for (size_t b = 0; b < guards.size(); ++b) {
+    EXPECT_TRUE(guards[b].holds(roots[b])) << "entry " << b << " was allocated anew";
+    EXPECT_EQ("", guards[b].damage()) << "entry " << b;
+  }
+}
+
+TEST(WindowLattice, centersFollowTheConventionForWindows) {
+  // A window of 3 cells of 2 pixels at pixel 10 covers pixels 10 to 15.
+  const WindowLattice lattice{{10, 20}, 2, 3, {5, 4}};
+  EXPECT_EQ(cv::Point2d(12.5, 22.5), lattice.centerOf(0, 0));
+  EXPECT_EQ(cv::Point2d(14.5, 28.5), lattice.centerOf(1, 3));
+  EXPECT_EQ(cv::Point2d(13.5, 22.0), lattice.centerOf(0.5, -0.25));
+}
+
+TEST(WindowLattice, pixelsAreThoseOfAllWindows) {
+  const WindowLattice lattice{{10, 20}, 2, 3, {5, 4}};
+  EXPECT_EQ(cv::Rect(10, 20, 14, 12), lattice.pixels());
+}
+
+}  // namespace
+}  // namespace chain_tracker

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/ros/target_registry.h"
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "chain_tracker/chain/chain_model_io.h"
+#include "chain_tracker/ros/image_conversion.h"
+#include "ros/rendered_scene.h"
+
+namespace chain_tracker {
+namespace {
+
+const BottlePose kStart;  // where the bottle is unless it moves
+
+class TargetRegistryTest : public testing::Test {
+ protected:
+  TargetRegistryTest()
+      : model_(
+            loadChainModel(std::string(CHAIN_TRACKER_SOURCE_DIR) + "/config/models/bottle.yaml")),
+        history_(30) {}
+
+  Frame receive(const cv::Mat& image, double stamp) {
+    const Frame frame{++frame_count_, imageMsg(image, ros::Time(stamp))};
+    history_.add(frame);
+    return frame;
+  }
+
+  FrameResult show(const cv::Mat& image, double stamp) {
+    return registry_.process(receive(image, stamp), image);
+  }
+
+  /// Starts an object on the next frame; what the answer was is in the result.
+  std::shared_ptr<std::optional<std::string>> expect(const std::string& id,
+                                                     const std::vector<cv::Point2d>& points) {
+    auto answer = std::make_shared<std::optional<std::string>>();
+    registry_.startAtNextFrame({id, "bottle", points}, model_,
+                               [answer](const std::string& refusal) { *answer = refusal; });
+    return answer;
+  }
+
+  RenderedScene scene_;
+  ChainModel model_;
+  ImageHistory history_;
+  TargetRegistry registry_;
+  std::uint64_t frame_count_ = 0;
+};
+
+BottlePose movedBy(double x, double y) {
+  BottlePose pose;
+  pose.centre += cv::Point2d(x, y);
+  return pose;
+}
+
+void expectAt(const TrackedObject& object, const cv::Point2d& centre, double tolerance = 4.0) {
+  EXPECT_NEAR(object.pose.x, centre.x, tolerance);
+  EXPECT_NEAR(object.pose.y, centre.y, tolerance);
+}
+
+TEST_F(TargetRegistryTest, WithoutObjectsAFrameHasNone) {
+  EXPECT_TRUE(show(scene_.wall(), 1.0).objects.empty());
+}
+
+TEST_F(TargetRegistryTest, AnObjectStartsOnTheNextFrameAndIsFollowed) {
+  const auto answer = expect("a", RenderedScene::endsOf(kStart));
+  EXPECT_FALSE(answer->has_value());
+  FrameResult result = show(scene_.with({kStart}), 1.0);
+  ASSERT_TRUE(answer->has_value());
+  EXPECT_EQ(**answer, "");
+  ASSERT_EQ(result.objects.size(), 1u);
+  EXPECT_EQ(result.objects[0].state, TrackedObject::INITIALIZING);
+  expectAt(result.objects[0], kStart.centre);
+  for (const double step : {1.0, 2.0, 3.0, 4.0}) {
+    const BottlePose pose = movedBy(5.0 * step, -2.0 * step);
+    result = show(scene_.with({pose}), 1.0 + step);
+    ASSERT_EQ(result.objects.size(), 1u);
+    EXPECT_EQ(result.objects[0].state, TrackedObject::TRACKING);
+    expectAt(result.objects[0], pose.centre);
+  }
+  EXPECT_TRUE(result.faults.empty());
+}
+
+TEST_F(TargetRegistryTest, ARefusedObjectIsToldAndTheOthersStay) {
+  expect("good", RenderedScene::endsOf(kStart));
+  show(scene_.with({kStart}), 1.0);
+  const auto outside = expect("outside", {{1000.0, 50.0}, {1000.0, 150.0}});
+  const auto replacing = expect("good", {{100.0, 50.0}, {100.0, 50.0}});
+  const FrameResult result = show(scene_.with({kStart}), 2.0);
+  EXPECT_NE(outside->value_or(""), "");
+  EXPECT_NE(replacing->value_or(""), "");
+  ASSERT_EQ(result.objects.size(), 1u);
+  EXPECT_EQ(result.objects[0].id, "good");
+  EXPECT_EQ(result.objects[0].state, TrackedObject::TRACKING);
+}
+
+TEST_F(TargetRegistryTest, AnExistingIdIsReplaced) {
+  const BottlePose other = movedBy(-80.0, 0.0);
+  const cv::Mat image = scene_.with({kStart, other});
+  expect("a", RenderedScene::endsOf(kStart));
+  show(image, 1.0);
+  expect("a", RenderedScene::endsOf(other));
+  const FrameResult result = show(image, 2.0);
+  ASSERT_EQ(result.objects.size(), 1u);
+  expectAt(result.objects[0], other.centre);
+}
+
+TEST_F(TargetRegistryTest, AWithdrawnObjectDoesNotStart) {
+  const std::uint64_t ticket = registry_.startAtNextFrame(
+      {"a", "bottle", RenderedScene::endsOf(kStart)}, model_,
+      [](const std::string&) { ADD_FAILURE() << "withdrawn, yet answered"; });
+  EXPECT_TRUE(registry_.withdraw(ticket));
+  EXPECT_FALSE(registry_.withdraw(ticket));
+  EXPECT_TRUE(show(scene_.with({kStart}), 1.0).objects.empty());
+}
+
+TEST_F(TargetRegistryTest, ClosingRefusesThoseThatWaitAndThoseThatCome) {
+  const auto waiting = expect("a", RenderedScene::endsOf(kStart));
+  registry_.close();
+  EXPECT_NE(waiting->value_or(""), "");
+  EXPECT_NE(expect("b", RenderedScene::endsOf(kStart))->value_or(""), "");
+}
+
+TEST_F(TargetRegistryTest, AnObjectStartedInThePastCatchesUp) {
+  for (int k = 0; k < 6; ++k) show(scene_.with({movedBy(6.0 * k, 0.0)}), 1.0 + k);
+  const Frame past = history_.at(ros::Time(2.0));
+  registry_.startAt(past, {"a", "bottle", RenderedScene::endsOf(movedBy(6.0, 0.0))}, model_,
+                    history_);
+  const BottlePose now = movedBy(36.0, 0.0);
+  const FrameResult result = show(scene_.with({now}), 7.0);
+  ASSERT_EQ(result.objects.size(), 1u);
+  EXPECT_EQ(result.objects[0].state, TrackedObject::TRACKING);
+  expectAt(result.objects[0], now.centre);
+}
+
+TEST_F(TargetRegistryTest, AnObjectStartedAheadOfTheWorkerWaitsForItsFrame) {
+  const Frame first = receive(scene_.with({kStart}), 1.0);
+  const Frame second = receive(scene_.with({movedBy(6.0, 0.0)}), 2.0);
+  registry_.startAt(second, {"a", "bottle", RenderedScene::endsOf(movedBy(6.0, 0.0))}, model_,
+                    history_);
+  EXPECT_TRUE(registry_.process(first, toBgr8(first.image)->image).objects.empty());
+  const FrameResult result = registry_.process(second, toBgr8(second.image)->image);
+  ASSERT_EQ(result.objects.size(), 1u);
+  EXPECT_EQ(result.objects[0].state, TrackedObject::INITIALIZING);
+}
+
+TEST_F(TargetRegistryTest, AFaultyStartInThePastChangesNothing) {
+  show(scene_.with({kStart}), 1.0);
+  EXPECT_THROW(registry_.startAt(history_.at(ros::Time(1.0)), {"a", "bottle", {{5.0, 5.0}}}, model_,
+                                 history_),
+               std::invalid_argument);
+  EXPECT_TRUE(show(scene_.with({kStart}), 2.0).objects.empty());
+}
+
+TEST_F(TargetRegistryTest, ARemovedObjectIsGone) {
+  expect("a", RenderedScene::endsOf(kStart));
+  show(scene_.with({kStart}), 1.0);
+  EXPECT_TRUE(registry_.remove("a"));
+  EXPECT_FALSE(registry_.remove("a"));
+  EXPECT_TRUE(show(scene_.with({kStart}), 2.0).objects.empty());
+}
+
+TEST_F(TargetRegistryTest, RestartedObjectsStartFromThePointsGiven) {
+  expect("a", RenderedScene::endsOf(kStart));
+  for (int k = 0; k < 5; ++k) show(scene_.with({movedBy(8.0 * k, 0.0)}), 1.0 + k);
+  EXPECT_EQ(registry_.restartAll(), 1u);
+  FrameResult result = show(scene_.with({kStart}), 6.0);
+  ASSERT_EQ(result.objects.size(), 1u);
+  EXPECT_EQ(result.objects[0].state, TrackedObject::INITIALIZING);
+  expectAt(result.objects[0], kStart.centre, 1.0);
+  result = show(scene_.with({kStart}), 7.0);
+  EXPECT_EQ(result.objects[0].state, TrackedObject::TRACKING);
+}
+
+TEST_F(TargetRegistryTest, TimeGoingBackRestartsOnce) {
+  expect("a", RenderedScene::endsOf(kStart));
+  for (int k = 0; k < 5; ++k) show(scene_.with({movedBy(8.0 * k, 0.0)}), 10.0 + k);
+  FrameResult result = show(scene_.with({kStart}), 10.0);
+  ASSERT_EQ(result.notes.size(), 1u);
+  EXPECT_NE(result.notes[0].find("time went back from 14.000000000 to 10.000000000"),
+            std::string::npos);
+  EXPECT_EQ(result.objects.at(0).state, TrackedObject::INITIALIZING);
+  result = show(scene_.with({kStart}), 11.0);
+  EXPECT_TRUE(result.notes.empty());
+  EXPECT_EQ(result.objects.at(0).state, TrackedObject::TRACKING);
+}
+
+TEST_F(TargetRegistryTest, EqualStampsAreNotTimeGoingBack) {
+  expect("a", RenderedScene::endsOf(kStart));
+  show(scene_.with({kStart}), 0.0);
+  const FrameResult result = show(scene_.with({kStart}), 0.0);
+  EXPECT_TRUE(result.notes.empty());
+  EXPECT_EQ(result.objects.at(0).state, TrackedObject::TRACKING);
+}
+
+TEST_F(TargetRegistryTest, AnotherSizeStartsAgainWhereTheObjectIs) {
+  expect("a", RenderedScene::endsOf(kStart));
+  const BottlePose moved = movedBy(24.0, 8.0);
+  for (int k = 0; k <= 4; ++k) show(scene_.with({movedBy(6.0 * k, 2.0 * k)}), 1.0 + k);
+  cv::Mat twice;
+  cv::resize(scene_.with({moved}), twice, cv::Size(), 2.0, 2.0);
+  FrameResult result = show(twice, 6.0);
+  ASSERT_EQ(result.notes.size(), 1u);
+  EXPECT_NE(result.notes[0].find("from [320 x 240] to [640 x 480] px"), std::string::npos);
+  expectAt(result.objects.at(0), 2.0 * moved.centre, 8.0);
+  result = show(twice, 7.0);
+  EXPECT_TRUE(result.notes.empty());
+  EXPECT_EQ(result.objects.at(0).state, TrackedObject::TRACKING);
+}
+
+TEST_F(TargetRegistryTest, ALostObjectDoesNotSurviveAnotherSize) {
+  expect("a", RenderedScene::endsOf(kStart));
+  show(scene_.with({kStart}), 1.0);
+  FrameResult result;
+  for (int k = 0; k < 10; ++k) result = show(scene_.wall(), 2.0 + k);
+  ASSERT_EQ(result.objects.at(0).state, TrackedObject::LOST);
+  cv::Mat twice;
+  cv::resize(scene_.wall(), twice, cv::Size(), 2.0, 2.0);
+  result = show(twice, 20.0);
+  EXPECT_TRUE(result.objects.empty());
+  ASSERT_EQ(result.faults.size(), 1u);
+  EXPECT_EQ(result.faults[0].id, "a");
+  EXPECT_NE(result.faults[0].reason.find("removed"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace chain_tracker
