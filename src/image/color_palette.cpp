@@ -144,6 +144,8 @@ cv::Mat3b greyLevels() {
 
 }  // namespace
 
+void prepareForPalettes() { toLab(cv::Mat3b(1, 1, cv::Vec3b())); }
+
 ColorPalette::ColorPalette(const cv::Mat& image, const cv::Mat1b& object, const cv::Mat1b& ring,
                            const PaletteOptions& options) {
   const Samples samples = sampleColors(image, object, ring);

@@ -20,6 +20,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include "chain_tracker/TrackedObjectArray.h"
+#include "chain_tracker/image/color_palette.h"
 #include "chain_tracker/ros/frame_mailbox.h"
 #include "chain_tracker/ros/image_conversion.h"
 #include "chain_tracker/ros/image_history.h"
@@ -115,6 +116,7 @@ void TrackerNodelet::configure() {
     NODELET_ERROR_STREAM(getName() << ": " << sentence);
   }
   parameters_ = parametersFrom(tree);
+  prepareForPalettes();
   history_ = std::make_unique<ImageHistory>(static_cast<std::size_t>(parameters_.history));
   image_topic_ = getNodeHandle().resolveName("image");
   commands_ = std::make_unique<TargetCommands>(getName(), image_topic_, getPrivateNodeHandle(),

@@ -15,6 +15,10 @@ struct PaletteOptions {
   double min_object_share = 0.5;  ///< in [0, 1)
 };
 
+/// Does what the first palette of a process would have to do: OpenCV builds its tables at the first
+/// conversion to Lab, which takes a third of a second, or ten frames. Call it before they come.
+void prepareForPalettes();
+
 class ColorPalette {
  public:
   /// Entry of every colour that is not the object's, and of all that lies outside the image.
