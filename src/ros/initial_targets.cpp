@@ -20,6 +20,11 @@ std::invalid_argument fault(const std::string& key, const XmlRpcValue& value,
   return std::invalid_argument(text.str());
 }
 
+std::invalid_argument unknownKey(const std::string& place, const std::string& key,
+                                 const XmlRpcValue& value) {
+  return fault(place + "/" + key, value, std::string("left out: the form is ") + kTargetForm);
+}
+
 bool isArray(const XmlRpcValue& value) { return value.getType() == XmlRpcValue::TypeArray; }
 
 double coordinateFrom(const std::string& key, const XmlRpcValue& value) {
@@ -58,7 +63,7 @@ TargetRequest requestFrom(const std::string& place, const XmlRpcValue& target,
   }
   for (const auto& [key, value] : target) {
     if (key != "id" && key != "model" && key != "points") {
-      throw fault(place + "/" + key, value, std::string("left out: the form is ") + kTargetForm);
+      throw unknownKey(place, key, value);
     }
   }
   return {textFrom(place, target, "id", parameters.default_id),

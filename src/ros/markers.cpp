@@ -10,6 +10,9 @@ namespace {
 
 using visualization_msgs::Marker;
 
+/// Of the label [px].
+constexpr double kLetterHeight = 20.0;
+
 /// Ids of an object's markers within its namespace.
 enum MarkerId { kWindows, kChain, kCentres, kLabel };
 
@@ -93,7 +96,6 @@ Marker centresOf(const std_msgs::Header& header, const TrackedObject& object, co
 
 /// Above the highest part.
 Marker labelOf(const std_msgs::Header& header, const TrackedObject& object, const Plane& plane) {
-  constexpr double kLetterHeight = 20.0;  // [px]
   Marker marker = markerOf(header, object.id, kLabel, Marker::TEXT_VIEW_FACING);
   double top = object.pose.y;
   for (const PartPose& part : object.parts) top = std::min(top, part.pose.y - 0.5 * part.size);

@@ -136,7 +136,7 @@ TrackedObject toMsg(const ChainState& state, const std::string& id, const std::s
   for (const SegmentState& segment : state.segments) {
     message.segments.push_back(toMsg(segment, lost));
     for (int k = 0; k < segment.part_count; ++k) {
-      const auto part = static_cast<std::size_t>(segment.first_part + k);
+      const auto part = static_cast<std::size_t>(segment.first_part) + static_cast<std::size_t>(k);
       message.parts.push_back(
           toMsg(state.parts.at(part), segment.name + "/" + std::to_string(k), lost));
     }

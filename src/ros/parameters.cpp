@@ -33,6 +33,10 @@ std::string fault(const std::string& key, const XmlRpcValue& value, const std::s
   return "~" + key + " is " + valueText(value) + ", must be " + allowed;
 }
 
+std::string unknownKeySentence(const std::string& key, const std::string& known) {
+  return "~" + key + " is unknown and has no effect, must be one of " + known;
+}
+
 bool isNumber(const XmlRpcValue& value) {
   return value.getType() == XmlRpcValue::TypeDouble || value.getType() == XmlRpcValue::TypeInt;
 }
@@ -120,7 +124,7 @@ std::vector<std::string> unknownKeysIn(const XmlRpcValue& tree) {
   for (const std::string& key : kKeys) known += (known.empty() ? "~" : ", ~") + key;
   for (const auto& [key, value] : tree) {
     if (kKeys.count(key) == 0 && kKeysOfOthers.count(key) == 0) {
-      sentences.push_back("~" + key + " is unknown and has no effect, must be one of " + known);
+      sentences.push_back(unknownKeySentence(key, known));
     }
   }
   return sentences;

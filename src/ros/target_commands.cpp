@@ -119,8 +119,9 @@ void TargetCommands::startOnNextImage(const TargetRequest& request, const ChainM
 
 bool TargetCommands::removeTarget(RemoveTarget::Request& request,
                                   RemoveTarget::Response& response) {
-  response.success = registry_->remove(request.id);
-  response.message = "'" + request.id + "' " + (response.success ? "is removed" : "is unknown");
+  const std::string& id = request.id.empty() ? parameters_.default_id : request.id;
+  response.success = registry_->remove(id);
+  response.message = "'" + id + "' " + (response.success ? "is removed" : "is unknown");
   return true;
 }
 

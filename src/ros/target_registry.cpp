@@ -36,6 +36,10 @@ std::vector<cv::Point2d> positionsOf(const std::vector<CarriedPoint>& points) {
   return positions;
 }
 
+std::string restartNote(const std::string& id, const std::string& reason) {
+  return "'" + id + "' starts again: " + reason;
+}
+
 }  // namespace
 
 std::uint64_t TargetRegistry::startAtNextFrame(const TargetRequest& request,
@@ -140,7 +144,7 @@ void TargetRegistry::advanceAll(const Frame& frame, const cv::Mat& image, FrameR
     try {
       if (target.frame_number < frame.number) advance(frame, image, &target);
       if (!break_in_stream.empty()) {
-        result->notes.push_back("'" + id + "' starts again: " + break_in_stream);
+        result->notes.push_back(restartNote(id, break_in_stream));
       }
     } catch (const std::exception& error) {
       keep = break_in_stream.empty();

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "chain_tracker/chain/chain_layout.h"
-
 #include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "chain_tracker/chain/chain_layout.h"
 #include "support/refusal.h"
 
 namespace chain_tracker {
@@ -53,8 +52,8 @@ TEST(LayOut, refusesPointsThatAreNotFinite) {
   for (double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     for (Layout layout : {Layout::kElongated, Layout::kDeformable}) {
       EXPECT_EQ("", omissionsOf(layoutRefusal(layout, {{bad, 7}, {50, 7}}), {"point 0", "finite"}));
-      EXPECT_EQ("",
-                omissionsOf(layoutRefusal(layout, {{5, 7}, {50, bad}}), {"point 1", "50", "finite"}));
+      EXPECT_EQ(
+          "", omissionsOf(layoutRefusal(layout, {{5, 7}, {50, bad}}), {"point 1", "50", "finite"}));
     }
   }
 }

@@ -82,7 +82,8 @@ void expectSerpentineOverTheRectangle(const SegmentLayout& segment) {
     EXPECT_TRUE(cell.second >= 0 && cell.second < cells.rows) << "part " << k;
     EXPECT_TRUE(visited.insert(cell).second) << "part " << k << " shares its cell";
     if (k > 0) {
-      const int steps = std::abs(cell.first - previous.first) + std::abs(cell.second - previous.second);
+      const int steps =
+          std::abs(cell.first - previous.first) + std::abs(cell.second - previous.second);
       EXPECT_EQ(1, steps) << "from part " << k - 1;
     }
     previous = cell;
@@ -115,8 +116,8 @@ TEST(LayOut, cellsAreAsManyAndAsSquareAsTheyCan) {
 TEST(LayOut, numberOfCellsComesNearTheOneWanted) {
   for (int parts = 2; parts <= 200; ++parts) {
     for (double aspect : {0.01, 0.3, 0.5, 1.0}) {
-      const SegmentLayout segment = layOutOne(modelOf(Layout::kPlanar, parts),
-                                              rectangle({0, 0}, 500.0, 500.0 * aspect, 0.0));
+      const SegmentLayout segment =
+          layOutOne(modelOf(Layout::kPlanar, parts), rectangle({0, 0}, 500.0, 500.0 * aspect, 0.0));
       const double ratio = double(segment.parts.size()) / parts;
       EXPECT_TRUE(ratio > 0.65 && ratio < 1.5)
           << segment.parts.size() << " for " << parts << " at aspect " << aspect;

@@ -36,8 +36,8 @@ struct ProblemSize {
 
 /// Few enough chains to look at all of them.
 std::vector<ProblemSize> problemSizes() {
-  return {{1, {1, 1}, 1},   {1, {5, 4}, 20},  {2, {1, 1}, 1},    {2, {7, 1}, 49},
-          {2, {1, 7}, 49},  {3, {3, 3}, 729}, {3, {4, 2}, 512},  {4, {2, 3}, 1296},
+  return {{1, {1, 1}, 1},    {1, {5, 4}, 20},   {2, {1, 1}, 1},   {2, {7, 1}, 49},
+          {2, {1, 7}, 49},   {3, {3, 3}, 729},  {3, {4, 2}, 512}, {4, {2, 3}, 1296},
           {5, {2, 2}, 1024}, {3, {5, 3}, 3375}, {6, {3, 1}, 729}};
 }
 
@@ -155,8 +155,8 @@ struct TwoSpots {
     problem.edges.emplace_back();
     for (int rows = -9; rows <= 9; ++rows) {
       for (int columns = -9; columns <= 9; ++columns) {
-        const auto cost = static_cast<float>((columns - rest) * (columns - rest) +
-                                             (rows - 4) * (rows - 4));
+        const auto cost =
+            static_cast<float>((columns - rest) * (columns - rest) + (rows - 4) * (rows - 4));
         problem.edges[0].push_back({columns, rows, cost});
       }
     }

@@ -126,7 +126,8 @@ TEST(SampleEdge, springWidenedForItsLatticeHoldsTheOffsetNearestToRest) {
   RandomInputs random(3);
   for (int repeat = 0; repeat < 300; ++repeat) {
     const int step = random.integer(1, 8);
-    const EdgePotential stiff{random.real(1.0, 6.0) * step, random.real(-CV_PI, CV_PI), 0.01, 0.005};
+    const EdgePotential stiff{random.real(1.0, 6.0) * step, random.real(-CV_PI, CV_PI), 0.01,
+                              0.005};
     SCOPED_TRACE(textOf(stiff, step));
     const cv::Point2d rest(stiff.length * std::cos(stiff.direction),
                            stiff.length * std::sin(stiff.direction));

@@ -30,7 +30,7 @@ std::string differenceFromSlowTwin(const cv::Mat1f& in, const EdgeStencil& stenc
 
 /// Smaller than a block of outputs, exactly one, one more, lines, and awkward ones.
 std::vector<cv::Size> hostileSizes() {
-  return {{1, 1}, {1, 9}, {9, 1},  {1, 2},  {3, 3},  {7, 3},   {8, 4},
+  return {{1, 1}, {1, 9}, {9, 1}, {1, 2},  {3, 3},  {7, 3},   {8, 4},
           {9, 5}, {8, 5}, {9, 4}, {16, 8}, {17, 9}, {33, 35}, {40, 6}};
 }
 
@@ -99,7 +99,7 @@ TEST(MinConvolution, emptyStencilReachesNothing) {
 
 TEST(MinConvolution, offsetsLargerThanTheMapReachNothing) {
   const cv::Mat1f in(4, 9, 1.0F);
-  const EdgeStencil beyond = {{9, 0, 0.0F}, {-9, 0, 0.0F},       {0, 4, 0.0F},
+  const EdgeStencil beyond = {{9, 0, 0.0F},  {-9, 0, 0.0F},      {0, 4, 0.0F},
                               {0, -4, 0.0F}, {1000000, 0, 0.0F}, {0, -1000000, 0.0F}};
   EXPECT_EQ("", firstDifference(cv::Mat1f(4, 9, kInfinity), convolve(in, beyond)));
 }

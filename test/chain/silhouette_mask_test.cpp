@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "chain_tracker/chain/chain_layout.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "chain_tracker/chain/chain_layout.h"
 
 namespace chain_tracker {
 namespace {

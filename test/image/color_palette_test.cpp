@@ -232,7 +232,8 @@ TEST(Classify, viewOfALargerImageIsReadAsItself) {
     const cv::Mat view = scene.image(cv::Rect(13, 11, 40, 35));
     EXPECT_EQ("", firstDifference(classified(palette, view.clone()), classified(palette, view)));
     const cv::Rect part(13, 11, 40, 35);
-    EXPECT_EQ("", firstDifference(classified(palette, scene.image)(part), classified(palette, view)));
+    EXPECT_EQ("",
+              firstDifference(classified(palette, scene.image)(part), classified(palette, view)));
   }
 }
 

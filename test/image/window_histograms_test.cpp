@@ -130,7 +130,8 @@ TEST(WindowHistograms, windowsOutsideTheImageHoldOnlyOther) {
 TEST(WindowHistograms, sharesSumToOne) {
   RandomInputs random(5);
   const ColorPalette palette = somePalette(CV_8UC3);
-  const auto roots = histogramsOf(random.noise({64, 48}, CV_8UC3), palette, {{-8, -8}, 3, 6, {20, 15}});
+  const auto roots =
+      histogramsOf(random.noise({64, 48}, CV_8UC3), palette, {{-8, -8}, 3, 6, {20, 15}});
   cv::Mat1d sums(15, 20, 0.0);
   for (const cv::Mat1f& root : roots) {
     cv::Mat1d wide;

@@ -141,7 +141,7 @@ TEST(ImageConversion, RefusesWhatItCannotRead) {
   sensor_msgs::Image depth = good;
   depth.encoding = "32FC1";
   depth.step = depth.width * 4;
-  depth.data.resize(depth.step * depth.height);
+  depth.data.resize(std::size_t{4} * depth.width * depth.height);
   EXPECT_NE(refusalOf(depth).find("32FC1"), std::string::npos);
 
   sensor_msgs::Image empty = good;

@@ -55,6 +55,8 @@ TEST_F(SetTargetTest, NoIdAndNoModelMeanTheDefaults) {
   const auto object = objectOf(client_.show(image_), "hand");
   ASSERT_TRUE(object);
   EXPECT_EQ(object->model, "bottle");
+  EXPECT_TRUE(client_.call<RemoveTarget>("remove_target").response.success);
+  EXPECT_FALSE(objectOf(client_.show(image_), "hand"));
 }
 
 TEST_F(SetTargetTest, TakesAModelFile) {

@@ -25,7 +25,7 @@ class TargetRegistryTest : public testing::Test {
         history_(30) {}
 
   Frame receive(const cv::Mat& image, double stamp) {
-    const Frame frame{++frame_count_, imageMsg(image, ros::Time(stamp))};
+    Frame frame{++frame_count_, imageMsg(image, ros::Time(stamp))};
     history_.add(frame);
     return frame;
   }
@@ -209,6 +209,22 @@ TEST_F(TargetRegistryTest, AnotherSizeStartsAgainWhereTheObjectIs) {
   result = show(twice, 7.0);
   EXPECT_TRUE(result.notes.empty());
   EXPECT_EQ(result.objects.at(0).state, TrackedObject::TRACKING);
+}
+
+TEST_F(TargetRegistryTest, ThePointsGivenAreScaledWithTheImage) {
+  expect("a", RenderedScene::endsOf(kStart));
+  show(scene_.with({kStart}), 1.0);
+  cv::Mat twice;
+  cv::resize(scene_.with({kStart}), twice, cv::Size(), 2.0, 2.0);
+  show(twice, 2.0);
+  registry_.restartAll();
+  const FrameResult result = show(twice, 3.0);
+  ASSERT_EQ(result.objects.size(), 1u);
+  ASSERT_EQ(result.objects[0].points.size(), 2u);
+  // Pixel 0 of the small image covers the pixels 0 and 1 of the large one: 0 -> 0.5.
+  const cv::Point2d first = RenderedScene::endsOf(kStart)[0];
+  EXPECT_NEAR(result.objects[0].points[0].x, 2.0 * first.x + 0.5, 1e-3);
+  EXPECT_NEAR(result.objects[0].points[0].y, 2.0 * first.y + 0.5, 1e-3);
 }
 
 TEST_F(TargetRegistryTest, ALostObjectDoesNotSurviveAnotherSize) {

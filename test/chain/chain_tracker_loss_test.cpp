@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What the tracker does when it cannot see the object, or not all of it.
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "chain_tracker/chain/chain_tracker.h"
+#include "support/drawn_box.h"
+
+namespace chain_tracker {
+namespace {
+
+const Similarity kStart{0.0, 1.0, {129.5, 109.5}};
+
+ChainTracker startTracker(const DrawnBox& box) {
+  ChainModel model;
+  model.segments[0].layout = Layout::kPlanar;
+  return ChainTracker(model, box.image(kStart), DrawnBox::corners(kStart));
+}
+
+double largestError(const ChainState& state, const Similarity& truth) {
+  const std::vector<cv::Point2d> corners = DrawnBox::corners(truth);
+  double largest = 0.0;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    largest = std::max(largest, cv::norm(state.points[i].position - corners[i]));
+  }
+  return largest;
+}
+
+/// Frames until the status is reached; fails after `most`.
+int framesUntil(ChainTracker& tracker, const cv::Mat& image, TrackingStatus status, int most) {
+  for (int frame = 1; frame <= most; ++frame) {
+    if (tracker.update(image).status == status) return frame;
+  }
+  ADD_FAILURE() << "not " << toString(status) << " after " << most << " frames, but "
+                << toString(tracker.state().status) << " with confidence "
+                << tracker.state().confidence;
+  return most;
+}
+
+TEST(ChainTrackerLoss, boxPaintedAwayIsLostAndStaysWhereItWas) {
+  const DrawnBox box;
+  ChainTracker tracker = startTracker(box);
+  const Similarity last{0.05, 1.0, {133.5, 111.5}};
+  tracker.update(box.image(last));
+  const ChainState before = tracker.state();
+  ASSERT_EQ(1, framesUntil(tracker, box.background(), TrackingStatus::kLost, 1));
+  for (int frame = 0; frame < 4; ++frame) {
+    const ChainState& state = tracker.update(box.background());
+    EXPECT_EQ("LOST", toString(state.status));
+    EXPECT_LT(state.confidence, 0.4);
+    EXPECT_EQ(before.box, state.box);
+    for (size_t k = 0; k < state.parts.size(); ++k) {
+      EXPECT_EQ(before.parts[k].position, state.parts[k].position) << "part " << k;
+    }
+    for (size_t i = 0; i < state.points.size(); ++i) {
+      EXPECT_EQ(before.points[i].position, state.points[i].position) << "point " << i;
+    }
+  }
+}
+
+TEST(ChainTrackerLoss, boxShownAgainWhereItWasIsTracked) {
+  const DrawnBox box;
+  ChainTracker tracker = startTracker(box);
+  for (int frame = 0; frame < 3; ++frame) tracker.update(box.background());
+  ASSERT_EQ(TrackingStatus::kLost, tracker.state().status);
+  framesUntil(tracker, box.image(kStart), TrackingStatus::kTracking, 2);
+  tracker.update(box.image(kStart));
+  EXPECT_LT(largestError(tracker.state(), kStart), 3.0);
+}
+
+TEST(ChainTrackerLoss, boxShownAgainElsewhereIsFound) {
+  const DrawnBox box;
+  for (const cv::Point2d& away :
+       {cv::Point2d(60, 0), cv::Point2d(100, 60), cv::Point2d(-50, -60)}) {
+    SCOPED_TRACE(std::to_string(away.x) + ", " + std::to_string(away.y) + " px away");
+    const Similarity there{0.0, 1.0, kStart.translation + away};
+    ChainTracker tracker = startTracker(box);
+    for (int frame = 0; frame < 6; ++frame) tracker.update(box.background());
+    ASSERT_EQ(TrackingStatus::kLost, tracker.state().status);
+    framesUntil(tracker, box.image(there), TrackingStatus::kTracking, 3);
+    for (int frame = 0; frame < 3; ++frame) tracker.update(box.image(there));
+    EXPECT_LT(largestError(tracker.state(), there), 3.0);
+  }
+}
+
+TEST(ChainTrackerLoss, searchGoesFartherWithEveryFrame) {
+  const DrawnBox box;
+  const Similarity there{0.0, 1.0, kStart.translation + cv::Point2d(100, 0)};
+  ChainTracker tracker = startTracker(box);
+  // Beyond the reach of 24 px and, after one frame, of 48.
+  tracker.update(box.image(there));
+  EXPECT_EQ(TrackingStatus::kLost, tracker.state().status);
+  tracker.update(box.image(there));
+  EXPECT_EQ(TrackingStatus::kLost, tracker.state().status);
+  framesUntil(tracker, box.image(there), TrackingStatus::kTracking, 4);
+  EXPECT_LT(largestError(tracker.state(), there), 5.0);
+}
+
+/// The left third is covered; the parts there are carried by the others.
+TEST(ChainTrackerLoss, coveredPartsAreHiddenAndCarried) {
+  const DrawnBox box;
+  ChainTracker tracker = startTracker(box);
+  for (int frame = 1; frame <= 8; ++frame) {
+    SCOPED_TRACE("frame " + std::to_string(frame));
+    const Similarity pose{0.0, 1.0, kStart.translation + frame * cv::Point2d(3, 1)};
+    cv::Mat image = box.image(pose);
+    const double edge = pose.translation.x - DrawnBox::kLength / 6;
+    const cv::Rect covered(0, 0, static_cast<int>(edge), image.rows);
+    box.background()(covered).copyTo(image(covered));
+    const ChainState& state = tracker.update(image);
+    ASSERT_EQ("OCCLUDED", toString(state.status));
+    int hidden = 0;
+    for (const PartState& part : state.parts) {
+      if (part.position.x < edge - 12.0) {
+        EXPECT_FALSE(part.visible) << "at " << part.position;
+      }
+      if (part.position.x > edge + 20.0) {
+        EXPECT_TRUE(part.visible) << "at " << part.position;
+      }
+      hidden += part.visible ? 0 : 1;
+    }
+    EXPECT_GT(hidden, 0);
+    ASSERT_LT(largestError(state, pose), 6.0);
+  }
+  const Similarity last{0.0, 1.0, kStart.translation + cv::Point2d(24, 8)};
+  EXPECT_EQ("TRACKING", toString(tracker.update(box.image(last)).status));
+}
+
+TEST(ChainTrackerLoss, boxLeavingTheImageIsLost) {
+  const DrawnBox box;
+  ChainTracker tracker = startTracker(box);
+  for (int frame = 1; frame <= 30; ++frame) {
+    const Similarity pose{0.0, 1.0, kStart.translation + frame * cv::Point2d(10, 0)};
+    const ChainState& state = tracker.update(box.image(pose));
+    if (pose.translation.x < 270.0) {
+      ASSERT_NE(TrackingStatus::kLost, state.status) << frame;
+    }
+    if (pose.translation.x > 370.0) {
+      ASSERT_EQ(TrackingStatus::kLost, state.status) << frame;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace chain_tracker

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/chain/chain_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "support/drawn_box.h"
+#include "support/state_text.h"
+
+namespace chain_tracker {
+namespace {
+
+/// What a point may be off after tracking [px].
+constexpr double kFewPixels = 3.0;
+/// The upright box covers whole pixels here, so that its drawing has no preferred direction.
+const Similarity kStart{0.0, 1.0, {149.5, 109.5}};
+
+ChainModel boxModel() {
+  ChainModel model;
+  model.segments[0].layout = Layout::kPlanar;
+  return model;
+}
+
+ChainTracker startTracker(const DrawnBox& box, const Similarity& start = kStart) {
+  return ChainTracker(boxModel(), box.image(start), DrawnBox::corners(start));
+}
+
+double largestError(const ChainState& state, const Similarity& truth) {
+  const std::vector<cv::Point2d> corners = DrawnBox::corners(truth);
+  double largest = 0.0;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    largest = std::max(largest, cv::norm(state.points[i].position - corners[i]));
+  }
+  return largest;
+}
+
+/// Tracks the box along the motion, given by its pose in each frame after the first.
+template <typename Motion>
+void expectTracked(const DrawnBox& box, int frames, const Motion& motion) {
+  ChainTracker tracker = startTracker(box, motion(0));
+  for (int frame = 1; frame <= frames; ++frame) {
+    SCOPED_TRACE("frame " + std::to_string(frame));
+    const ChainState& state = tracker.update(box.image(motion(frame)));
+    ASSERT_EQ("TRACKING", toString(state.status));
+    ASSERT_LT(largestError(state, motion(frame)), kFewPixels);
+    ASSERT_NEAR(0.0, wrapAngle(state.segments[0].image_from_segment.angle - motion(frame).angle),
+                0.06);
+    ASSERT_NEAR(motion(frame).scale / motion(0).scale, state.segments[0].image_from_segment.scale,
+                0.05);
+  }
+}
+
+TEST(ChainTracker, startsWhereItIsTold) {
+  const DrawnBox box;
+  const ChainTracker tracker = startTracker(box);
+  const ChainState& state = tracker.state();
+  EXPECT_EQ(TrackingStatus::kInitializing, state.status);
+  EXPECT_EQ(1.0, state.confidence);
+  EXPECT_LT(largestError(state, kStart), 1e-9);
+  EXPECT_EQ(4U, state.outline.size());
+  EXPECT_NEAR(101.5, state.box.x, 1e-9);
+  EXPECT_NEAR(79.5, state.box.y, 1e-9);
+  EXPECT_NEAR(96.0, state.box.width, 1e-9);
+  EXPECT_NEAR(60.0, state.box.height, 1e-9);
+  EXPECT_EQ("bottle", tracker.model().name);
+}
+
+/// Whatever part of a pixel the points fall on: the same image again must give the same positions.
+TEST(ChainTracker, staysOnABoxAtRest) {
+  const DrawnBox box;
+  const cv::Mat image = box.image(kStart);
+  for (double phase : {0.0, 0.25, 0.5, 0.75}) {
+    SCOPED_TRACE("points moved by " + std::to_string(phase) + " px");
+    const Similarity start{0.0, 1.0, kStart.translation + cv::Point2d(phase, phase)};
+    ChainTracker tracker(boxModel(), image, DrawnBox::corners(start));
+    for (int frame = 0; frame < 5; ++frame) tracker.update(image);
+    const Similarity& pose = tracker.state().segments[0].image_from_segment;
+    EXPECT_LT(cv::norm(pose.translation - start.translation), 0.25);
+    EXPECT_NEAR(0.0, pose.angle, 0.005);
+    EXPECT_NEAR(1.0, pose.scale, 0.005);
+    EXPECT_GT(tracker.state().confidence, 0.8);
+  }
+}
+
+TEST(ChainTracker, followsShifts) {
+  for (const cv::Point2d& velocity :
+       {cv::Point2d(4, 0), cv::Point2d(-3.3, 2.6), cv::Point2d(0, 1)}) {
+    expectTracked(DrawnBox(), 12, [&](int frame) {
+      return Similarity{0.0, 1.0, kStart.translation + frame * velocity};
+    });
+  }
+}
+
+TEST(ChainTracker, followsJumpsWithinItsReach) {
+  // The reach is 0.06 of a diagonal of 400 px.
+  expectTracked(DrawnBox(), 6, [](int frame) {
+    return Similarity{0.0, 1.0, kStart.translation + cv::Point2d(frame % 2 * 20, frame % 3 * 8)};
+  });
+}
+
+TEST(ChainTracker, followsTurns) {
+  for (double turn : {0.05, -0.12}) {
+    expectTracked(DrawnBox(), 20, [&](int frame) {
+      return Similarity{wrapAngle(frame * turn), 1.0, kStart.translation};
+    });
+  }
+}
+
+TEST(ChainTracker, followsScales) {
+  for (double growth : {0.02, -0.02}) {
+    expectTracked(DrawnBox(), 15, [&](int frame) {
+      return Similarity{0.0, std::exp(frame * growth), kStart.translation};
+    });
+  }
+}
+
+TEST(ChainTracker, followsAllAtOnceFromATurnedStart) {
+  expectTracked(DrawnBox(), 15, [](int frame) {
+    return Similarity{2.9 + 0.06 * frame, std::exp(-0.01 * frame),
+                      kStart.translation + frame * cv::Point2d(2.5, 1.5)};
+  });
+}
+
+TEST(ChainTracker, followsInGreyImages) {
+  expectTracked(DrawnBox(CV_8UC1), 12, [](int frame) {
+    return Similarity{0.05 * frame, 1.0, kStart.translation + frame * cv::Point2d(3, -1)};
+  });
+}
+
+TEST(ChainTracker, elongatedModelFollowsTwoEnds) {
+  const DrawnBox box;
+  ChainModel model;
+  model.segments[0].aspect = DrawnBox::kWidth / DrawnBox::kLength;
+  const auto ends = [](const Similarity& pose) {
+    return std::vector<cv::Point2d>{pose.apply({-48, 0}), pose.apply({48, 0})};
+  };
+  ChainTracker tracker(model, box.image(kStart), ends(kStart));
+  Similarity pose = kStart;
+  for (int frame = 1; frame <= 10; ++frame) {
+    pose = {0.05 * frame, 1.0, kStart.translation + frame * cv::Point2d(3, 2)};
+    tracker.update(box.image(pose));
+  }
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_LT(cv::norm(tracker.state().points[i].position - ends(pose)[i]), kFewPixels);
+  }
+}
+
+TEST(ChainTracker, deformableModelFollowsAPolyline) {
+  const DrawnBox box;
+  ChainModel model;
+  SegmentModel& segment = model.segments[0];
+  segment.layout = Layout::kDeformable;
+  segment.parts = 9;
+  segment.bend_sigma = 0.3;
+  segment.orientation_hypotheses = segment.scale_hypotheses = 1;
+  const std::vector<cv::Point2d> line = {{-40, -20}, {0, 10}, {40, -10}};
+  const auto placed = [&](const Similarity& pose) {
+    std::vector<cv::Point2d> points;
+    for (const cv::Point2d& point : line) points.push_back(pose.apply(point));
+    return points;
+  };
+  ChainTracker tracker(model, box.image(kStart), placed(kStart));
+  Similarity pose = kStart;
+  for (int frame = 1; frame <= 10; ++frame) {
+    pose = {0.04 * frame, 1.0, kStart.translation + frame * cv::Point2d(2, -3)};
+    ASSERT_NE(TrackingStatus::kLost, tracker.update(box.image(pose)).status);
+  }
+  for (size_t i = 0; i < line.size(); ++i) {
+    EXPECT_LT(cv::norm(tracker.state().points[i].position - placed(pose)[i]), kFewPixels);
+  }
+}
+
+TEST(ChainTracker, sameInputGivesTheSameStates) {
+  const DrawnBox box;
+  ChainTracker first = startTracker(box);
+  ChainTracker second = startTracker(box);
+  EXPECT_EQ(textOf(first.state()), textOf(second.state()));
+  for (int frame = 1; frame <= 6; ++frame) {
+    const cv::Mat image =
+        box.image({0.07 * frame, 1.0, kStart.translation + frame * cv::Point2d(4, 3)});
+    const std::string state = textOf(first.update(image));
+    EXPECT_EQ(state, textOf(second.update(image)));
+    EXPECT_EQ(state, textOf(first.state())) << "state() is not what update() returned";
+  }
+}
+
+TEST(ChainTracker, doesNotKeepOrChangeTheImage) {
+  const DrawnBox box;
+  cv::Mat image = box.image(kStart);
+  ChainTracker tracker(boxModel(), image, DrawnBox::corners(kStart));
+  ChainTracker twin = startTracker(box);
+  image.setTo(0);
+  cv::Mat next = box.image(kStart);
+  const cv::Mat untouched = next.clone();
+  EXPECT_EQ(textOf(twin.update(untouched)), textOf(tracker.update(next)));
+  EXPECT_EQ(0.0, cv::norm(untouched, next, cv::NORM_INF));
+}
+
+TEST(ChainTracker, stateIsWithinItsRanges) {
+  const DrawnBox box;
+  ChainTracker tracker = startTracker(box);
+  const ChainState& state = tracker.update(box.image({0.1, 1.03, {154.5, 111.5}}));
+  EXPECT_TRUE(std::isfinite(state.energy));
+  EXPECT_GE(state.energy, 0.0);
+  EXPECT_LE(state.energy, 8.0 * double(state.parts.size()) + 100.0);
+  ASSERT_EQ(1U, state.segments.size());
+  const SegmentState& segment = state.segments[0];
+  EXPECT_EQ("body", segment.name);
+  EXPECT_EQ(0, segment.first_part);
+  EXPECT_EQ(static_cast<int>(state.parts.size()), segment.part_count);
+  double mean = 0.0;
+  for (const PartState& part : state.parts) {
+    EXPECT_GE(part.confidence, 0.0);
+    EXPECT_LE(part.confidence, 1.0);
+    EXPECT_TRUE(part.visible);
+    EXPECT_EQ(segment.image_from_segment.angle, part.orientation);
+    EXPECT_NEAR(tracker.state().parts[0].side, part.side, 1e-9);
+    mean += part.confidence / double(state.parts.size());
+  }
+  EXPECT_NEAR(mean, state.confidence, 1e-9);
+  EXPECT_NEAR(mean, segment.confidence, 1e-9);
+  EXPECT_GE(state.times.part_costs, 0.0);
+  EXPECT_NEAR(
+      state.times.part_costs + state.times.matching + state.times.refinement + state.times.pose,
+      state.times.total(), 1e-9);
+}
+
+TEST(ChainTracker, covariancesOfAWellSeenBoxArePositiveDefinite) {
+  const DrawnBox box;
+  ChainTracker tracker = startTracker(box);
+  for (const PartState& part : tracker.update(box.image({0.0, 1.0, {152.5, 111.5}})).parts) {
+    const cv::Matx22d& covariance = part.covariance;
+    EXPECT_GT(covariance(0, 0), 0.0);
+    EXPECT_GT(cv::determinant(covariance), 0.0);
+    EXPECT_EQ(covariance(0, 1), covariance(1, 0));
+    EXPECT_LT(covariance(0, 0) + covariance(1, 1), 400.0) << "at " << part.position;
+  }
+}
+
+TEST(ChainTracker, isMovedWithItsState) {
+  const DrawnBox box;
+  ChainTracker original = startTracker(box);
+  ChainTracker twin = startTracker(box);
+  original.update(box.image(kStart));
+  twin.update(box.image(kStart));
+  ChainTracker moved(std::move(original));
+  EXPECT_EQ(textOf(twin.state()), textOf(moved.state()));
+  ChainTracker assigned = startTracker(box, {0.5, 1.0, {100, 100}});
+  assigned = std::move(moved);
+  const cv::Mat next = box.image({0.05, 1.0, {153.5, 107.5}});
+  EXPECT_EQ(textOf(twin.update(next)), textOf(assigned.update(next)));
+}
+
+}  // namespace
+}  // namespace chain_tracker

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/chain/object_appearance.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "support/map_difference.h"
+#include "support/random_inputs.h"
+
+namespace chain_tracker {
+namespace {
+
+const cv::Scalar kRed(30, 30, 220);
+const cv::Scalar kGreen(40, 200, 40);
+const cv::Scalar kBlue(210, 60, 40);
+
+/// A box, red on its left and green on its right, on blue; green again far away.
+cv::Mat redAndGreenBox() {
+  cv::Mat image(240, 320, CV_8UC3, kGreen);
+  image(cv::Rect(100, 70, 120, 100)).setTo(kBlue);
+  image(cv::Rect(130, 100, 60, 40)).setTo(kGreen);
+  image(cv::Rect(130, 100, 30, 40)).setTo(kRed);
+  return image;
+}
+
+ChainModel boxModel() {
+  ChainModel model;
+  model.segments[0].layout = Layout::kPlanar;
+  model.segments[0].parts = 6;
+  return model;
+}
+
+ChainLayout boxLayout(const ChainModel& model) {
+  return layOut(model, {{130, 100}, {189, 100}, {189, 139}, {130, 139}});
+}
+
+int entryAt(const ObjectAppearance& appearance, const cv::Mat& image, const cv::Point& pixel) {
+  cv::Mat1b entry;
+  appearance.palette.classify(image, {pixel.x, pixel.y, 1, 1}, entry);
+  return entry(0, 0);
+}
+
+TEST(LearnAppearance, tellsTheObjectsColorsFromTheRing) {
+  const cv::Mat image = redAndGreenBox();
+  const ChainModel model = boxModel();
+  const ObjectAppearance appearance = learnAppearance(image, boxLayout(model), model.appearance);
+  const int red = entryAt(appearance, image, {140, 120});
+  const int green = entryAt(appearance, image, {180, 120});
+  EXPECT_NE(ColorPalette::kOther, red);
+  EXPECT_NE(ColorPalette::kOther, green);
+  EXPECT_NE(red, green);
+  EXPECT_EQ(ColorPalette::kOther, entryAt(appearance, image, {110, 80}));
+}
+
+TEST(LearnAppearance, ringIsAsWideAsTheModelSays) {
+  const cv::Mat image = redAndGreenBox();
+  ChainModel model = boxModel();
+  model.appearance.ring = 0.3;  // Ends in the blue, 15 of 30 pixels wide.
+  EXPECT_NE(ColorPalette::kOther,
+            entryAt(learnAppearance(image, boxLayout(model), model.appearance), image, {180, 120}));
+  model.appearance.ring = 3.0;  // Reaches the green, which is most of it.
+  EXPECT_EQ(ColorPalette::kOther,
+            entryAt(learnAppearance(image, boxLayout(model), model.appearance), image, {180, 120}));
+}
+
+TEST(LearnAppearance, keepsTheShareAndNumberOfColorsOfTheModel) {
+  RandomInputs random(1);
+  const cv::Mat image = random.noise({320, 240}, CV_8UC3);
+  ChainModel model = boxModel();
+  model.appearance.min_object_share = 0.0;
+  model.appearance.palette_colors = 7;
+  EXPECT_EQ(8, learnAppearance(image, boxLayout(model), model.appearance).palette.size());
+  model.appearance.min_object_share = 0.5;
+  EXPECT_LT(learnAppearance(image, boxLayout(model), model.appearance).palette.size(), 8);
+}
+
+TEST(LearnAppearance, learnsEachPartWhereItLies) {
+  const cv::Mat image = redAndGreenBox();
+  const ChainModel model = boxModel();
+  const ChainLayout layout = boxLayout(model);
+  const ObjectAppearance appearance = learnAppearance(image, layout, model.appearance);
+  const SegmentLayout& segment = layout.segments[0];
+  ASSERT_EQ(segment.parts.size(), appearance.parts.size());
+  for (size_t k = 0; k < segment.parts.size(); ++k) {
+    const cv::Point2d center = segment.image_from_segment.apply(segment.parts[k].position);
+    EXPECT_EQ(learnPart(image, appearance.palette, center, segment.parts[k].side),
+              appearance.parts[k])
+        << "part " << k;
+  }
+  const auto red = static_cast<size_t>(entryAt(appearance, image, {140, 120}));
+  const auto green = static_cast<size_t>(entryAt(appearance, image, {180, 120}));
+  // The chain starts in the first column, on the left, and ends in the last.
+  EXPECT_GT(appearance.parts.front()[red], 0.8F);
+  EXPECT_EQ(appearance.parts.front()[green], 0.0F);
+  EXPECT_GT(appearance.parts.back()[green], 0.8F);
+  EXPECT_EQ(appearance.parts.back()[red], 0.0F);
+}
+
+TEST(LearnAppearance, learnsTheStrokeOfALine) {
+  cv::Mat image(200, 200, CV_8UC3, kBlue);
+  image(cv::Rect(20, 95, 160, 11)).setTo(kRed);
+  ChainModel model;
+  model.segments[0].layout = Layout::kDeformable;
+  model.segments[0].parts = 12;
+  model.segments[0].aspect = 0.07;
+  const ChainLayout layout = layOut(model, {{20, 100}, {180, 100}});
+  const ObjectAppearance appearance = learnAppearance(image, layout, model.appearance);
+  EXPECT_EQ(12U, appearance.parts.size());
+  EXPECT_NE(ColorPalette::kOther, entryAt(appearance, image, {100, 100}));
+  EXPECT_EQ(ColorPalette::kOther, entryAt(appearance, image, {100, 150}));
+}
+
+TEST(LearnAppearance, learnsObjectsThatStickOutOfTheImage) {
+  const cv::Mat image = redAndGreenBox()(cv::Rect(150, 60, 100, 100));
+  const ChainModel model = boxModel();
+  // The box is now from -20 to 39.
+  const ChainLayout layout = layOut(model, {{-20, 40}, {39, 40}, {39, 79}, {-20, 79}});
+  const ObjectAppearance appearance = learnAppearance(image, layout, model.appearance);
+  EXPECT_EQ(6U, appearance.parts.size());
+  const RootHistogram& outside = appearance.parts.front();
+  EXPECT_GT(outside[ColorPalette::kOther], 0.9F);
+}
+
+}  // namespace
+}  // namespace chain_tracker
