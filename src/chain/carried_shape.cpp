@@ -8,6 +8,10 @@
 namespace chain_tracker {
 namespace {
 
+/// Where a line doubles back on itself, two parts may coincide; their edge has no direction that
+/// could carry a point [px].
+constexpr double kShortestEdge = 1.0;
+
 /// The frame whose unit vector along x is the edge from a to b.
 Similarity frameOfEdge(const cv::Point2d& a, const cv::Point2d& b) {
   return {directionOf(b - a), std::max(cv::norm(b - a), 1e-9), a};
@@ -23,6 +27,7 @@ size_t nearestEdge(const std::vector<PartLayout>& parts, const cv::Point2d& poin
   size_t nearest = 0;
   double nearest_distance = std::numeric_limits<double>::infinity();
   for (size_t k = 0; k + 1 < parts.size(); ++k) {
+    if (cv::norm(parts[k + 1].position - parts[k].position) < kShortestEdge) continue;
     const double distance = distanceToEdge(point, parts[k].position, parts[k + 1].position);
     if (distance < nearest_distance) {
       nearest_distance = distance;

@@ -188,7 +188,7 @@ class ChainTracker::Implementation {
     }
     const int step = (coarse.lattice.step + kRefinedSteps - 1) / kRefinedSteps;
     const double side = segment().parts.front().side * pose.scale;
-    return makeCandidateGrid(centers, side, step, coarse.lattice.step);
+    return makeCandidateGrid(centers, side, step, coarse.lattice.step + step);
   }
 
   Refinement refine(const cv::Mat& image, const CandidateGrid& coarse, const SegmentPose& previous,

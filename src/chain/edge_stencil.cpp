@@ -56,8 +56,9 @@ EdgePotential onLattice(EdgePotential potential, double step) {
 
 EdgeStencil sampleEdge(const EdgePotential& potential, int step) {
   const cv::Rect2d bounds = cutOffBounds(potential);
-  const auto first = [&](double low) { return static_cast<int>(std::ceil(low / step)); };
-  const auto last = [&](double high) { return static_cast<int>(std::floor(high / step)); };
+  // One step more than the bounds, which are rounded; the loop looks at each offset exactly.
+  const auto first = [&](double low) { return static_cast<int>(std::floor(low / step)); };
+  const auto last = [&](double high) { return static_cast<int>(std::ceil(high / step)); };
   EdgeStencil stencil;
   for (int rows = first(bounds.y); rows <= last(bounds.br().y); ++rows) {
     for (int columns = first(bounds.x); columns <= last(bounds.br().x); ++columns) {

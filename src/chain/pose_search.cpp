@@ -55,9 +55,11 @@ QuadraticMinimum fitQuadratic(const cv::Mat1f& marginal, const cv::Point& state)
   const double xy = 0.25 * (at(1, 1) + at(-1, -1) - at(1, -1) - at(-1, 1));
   const double determinant = xx * yy - xy * xy;
   if (!std::isfinite(determinant) || xx <= 0.0 || yy <= 0.0 || determinant <= 0.0) return minimum;
-  minimum.offset = {parabolaMinimum(at(-1, 0), at(0, 0), at(1, 0)),
-                    parabolaMinimum(at(0, -1), at(0, 0), at(0, 1))};
   minimum.covariance = cv::Matx22d(yy, -xy, -xy, xx) * (1.0 / determinant);
+  const double x = 0.5 * (at(1, 0) - at(-1, 0));
+  const double y = 0.5 * (at(0, 1) - at(0, -1));
+  minimum.offset = {std::clamp((xy * y - yy * x) / determinant, -0.5, 0.5),
+                    std::clamp((xy * x - xx * y) / determinant, -0.5, 0.5)};
   return minimum;
 }
 

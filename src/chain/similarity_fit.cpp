@@ -6,6 +6,9 @@
 namespace chain_tracker {
 namespace {
 
+/// Points within this distance of their mean coincide but for rounding [px].
+constexpr double kCoincident = 1e-9;
+
 cv::Point2d weightedMean(const std::vector<cv::Point2d>& points,
                          const std::vector<double>& weights) {
   cv::Point2d sum;
@@ -23,18 +26,20 @@ Similarity fitSimilarity(const std::vector<cv::Point2d>& from, const std::vector
                          const std::vector<double>& weights) {
   const cv::Point2d from_mean = weightedMean(from, weights);
   const cv::Point2d to_mean = weightedMean(to, weights);
+  double total = 0.0;
   double spread = 0.0;
   double dot = 0.0;
   double cross = 0.0;
   for (size_t k = 0; k < from.size(); ++k) {
     const cv::Point2d a = from[k] - from_mean;
     const cv::Point2d b = to[k] - to_mean;
+    total += weights[k];
     spread += weights[k] * a.dot(a);
     dot += weights[k] * a.dot(b);
     cross += weights[k] * a.cross(b);
   }
   Similarity fit;
-  if (spread > 0.0) {
+  if (spread > total * kCoincident * kCoincident) {
     fit.angle = std::atan2(cross, dot);
     fit.scale = std::hypot(dot, cross) / spread;
   }

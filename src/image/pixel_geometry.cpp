@@ -11,7 +11,10 @@ double wrapAngle(double angle) {
   return wrapped <= -CV_PI ? CV_PI : wrapped;
 }
 
-double directionOf(const cv::Point2d& vector) { return std::atan2(vector.y, vector.x); }
+double directionOf(const cv::Point2d& vector) {
+  // Adding zero turns a negative zero, which atan2 tells from a positive one, into a positive one.
+  return std::atan2(vector.y + 0.0, vector.x + 0.0);
+}
 
 cv::Point2d Similarity::apply(const cv::Point2d& point) const {
   const double c = scale * std::cos(angle);

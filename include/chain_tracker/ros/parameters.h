@@ -15,13 +15,13 @@
 namespace chain_tracker {
 
 struct TrackerParameters {
-  std::string image_transport = "raw";   ///< transport of the topic `image`
-  std::string models_folder;             ///< of the models by name; empty = those of this package
-  std::string default_model = "auto";  ///< of objects given without a model
-  std::string default_id = "target";     ///< of objects given without an id
-  double init_timeout = 5.0;             ///< longest wait for an image [s], in [0.1, 600]
-  int history = 30;                      ///< images held for ~set_target with a stamp, in [0, 1000]
-  double pixel_size = 0.001;             ///< of the markers [m/px], in [1e-6, 1]
+  std::string image_transport = "raw";  ///< transport of the topic `image`
+  std::string models_folder;            ///< of the models by name; empty = those of this package
+  std::string default_model = "auto";   ///< of objects given without a model
+  std::string default_id = "target";    ///< of objects given without an id
+  double init_timeout = 5.0;            ///< longest wait for an image [s], in [0.1, 600]
+  int history = 30;                     ///< images held for ~set_target with a stamp, in [0, 1000]
+  double pixel_size = 0.001;            ///< of the markers [m/px], in [1e-6, 1]
 };
 
 /// The private parameters of a node as one value.
