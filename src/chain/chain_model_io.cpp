@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/chain/chain_model_io.h"
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -12,25 +14,38 @@
 namespace chain_tracker {
 namespace {
 
+/// Lines of the keys read, by their paths as in the sentences of faultsOf().
+using KeyLines = std::map<std::string, int>;
+
 /// One place in a document: for errors that name file, line and key.
 class Reader {
  public:
-  Reader(YAML::Node node, std::string source, std::string path)
-      : node_(std::move(node)), source_(std::move(source)), path_(std::move(path)) {}
+  Reader(YAML::Node node, std::string source, std::string path, int line, KeyLines* lines)
+      : node_(std::move(node)),
+        source_(std::move(source)),
+        path_(std::move(path)),
+        line_(line),
+        lines_(lines) {
+    (*lines_)[path_] = line_;
+  }
 
   using Readers = std::map<std::string, std::function<void(const Reader&)>>;
 
-  /// Reads a map; every key must have a reader.
+  /// Reads a map; every key must have a reader and may be there once.
   void readMap(const Readers& readers) const {
     if (!node_.IsMap()) refuse("must be a map of keys");
+    std::set<std::string> seen;
     for (const auto& entry : node_) {
-      const Reader key(entry.first, source_, path_);
+      const int line = entry.first.Mark().line + 1;
+      const Reader key(entry.first, source_, path_, line, lines_);
       const std::string name = key.as<std::string>("a name");
       const auto reader = readers.find(name);
       if (reader == readers.end()) {
         key.refuse("unknown key '" + name + "', must be one of: " + namesOf(readers));
       }
-      reader->second(Reader(entry.second, source_, path_ + "/" + name));
+      if (!seen.insert(name).second) key.refuse("key '" + name + "' is there twice");
+      const std::string path = path_.empty() ? name : path_ + "/" + name;
+      reader->second(Reader(entry.second, source_, path, line, lines_));
     }
   }
 
@@ -38,13 +53,15 @@ class Reader {
     if (!node_.IsSequence()) refuse("must be a list");
     std::vector<Reader> items;
     for (size_t i = 0; i < node_.size(); ++i) {
-      items.emplace_back(node_[i], source_, path_ + "[" + std::to_string(i) + "]");
+      items.emplace_back(node_[i], source_, path_ + "[" + std::to_string(i) + "]",
+                         node_[i].Mark().line + 1, lines_);
     }
     return items;
   }
 
   template <typename Value>
   Value as(const std::string& kind) const {
+    if (!node_.IsScalar()) refuse("is '" + textOf(node_) + "', must be " + kind);
     try {
       return node_.as<Value>();
     } catch (const YAML::Exception&) {
@@ -68,9 +85,8 @@ class Reader {
   }
 
   [[noreturn]] void refuse(const std::string& reason) const {
-    const std::string key = path_.empty() ? "" : path_.substr(1) + " ";
-    throw std::invalid_argument(source_ + ":" + std::to_string(node_.Mark().line + 1) + ": " + key +
-                                reason);
+    throw std::invalid_argument(source_ + ":" + std::to_string(line_) + ": " +
+                                (path_.empty() ? "" : path_ + " ") + reason);
   }
 
  private:
@@ -90,6 +106,8 @@ class Reader {
   YAML::Node node_;
   std::string source_;
   std::string path_;
+  int line_;
+  KeyLines* lines_;
 };
 
 template <typename Value>
@@ -135,31 +153,44 @@ void readSegments(const Reader& reader, std::vector<SegmentModel>& segments) {
   }
 }
 
-void requireUsable(const ChainModel& model, const std::string& source) {
+/// `lines`: each sentence of faultsOf() begins with its key.
+void requireUsable(const ChainModel& model, const std::string& source, const KeyLines& lines) {
   std::string message;
   for (const std::string& fault : faultsOf(model)) {
-    message += (message.empty() ? "" : "\n") + source + ": " + fault;
+    const auto line = lines.find(fault.substr(0, fault.find(' ')));
+    const std::string place =
+        line == lines.end() ? source : source + ":" + std::to_string(line->second);
+    message += (message.empty() ? "" : "\n") + place + ": " + fault;
   }
   if (!message.empty()) throw std::invalid_argument(message);
+}
+
+YAML::Node parseDocument(const std::string& yaml, const std::string& source) {
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(yaml);
+    if (documents.size() == 1) return documents.front();
+    const int line = documents.empty() ? 1 : documents[1].Mark().line + 1;
+    throw std::invalid_argument(source + ":" + std::to_string(line) + ": has " +
+                                std::to_string(documents.size()) +
+                                " YAML documents, must be one map of keys");
+  } catch (const YAML::ParserException& error) {
+    throw std::invalid_argument(source + ":" + std::to_string(error.mark.line + 1) +
+                                ": not valid YAML: " + error.msg);
+  }
 }
 
 }  // namespace
 
 ChainModel parseChainModel(const std::string& yaml, const std::string& source) {
-  YAML::Node document;
-  try {
-    document = YAML::Load(yaml);
-  } catch (const YAML::ParserException& error) {
-    throw std::invalid_argument(source + ":" + std::to_string(error.mark.line + 1) +
-                                ": not valid YAML: " + error.msg);
-  }
+  const YAML::Node document = parseDocument(yaml, source);
   ChainModel model;
-  Reader(document, source, "")
+  KeyLines lines;
+  Reader(document, source, "", std::max(1, document.Mark().line + 1), &lines)
       .readMap({{"name", into(model.name)},
                 {"segments", [&](const Reader& r) { readSegments(r, model.segments); }},
                 {"appearance", [&](const Reader& r) { readAppearance(r, model.appearance); }},
                 {"search", [&](const Reader& r) { readSearch(r, model.search); }}});
-  requireUsable(model, source);
+  requireUsable(model, source, lines);
   return model;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "chain_tracker/image/pixel_geometry.h"
 
@@ -33,9 +34,17 @@ cv::Rect2d cutOffBounds(const EdgePotential& potential) {
   return uprightBounds(extremes);
 }
 
-cv::Point nearestStep(const EdgePotential& potential, int step) {
-  return {static_cast<int>(std::lround(potential.length * std::cos(potential.direction) / step)),
-          static_cast<int>(std::lround(potential.length * std::sin(potential.direction) / step))};
+/// For springs so stiff that the lattice misses their cut-off.
+StencilOffset cheapestOffset(const EdgePotential& potential, int step) {
+  const int reach = static_cast<int>(std::ceil(potential.length / step)) + 1;
+  StencilOffset cheapest{0, 0, std::numeric_limits<float>::infinity()};
+  for (int rows = -reach; rows <= reach; ++rows) {
+    for (int columns = -reach; columns <= reach; ++columns) {
+      const auto cost = static_cast<float>(potential.at(cv::Point2d(columns * step, rows * step)));
+      if (cost < cheapest.cost) cheapest = {columns, rows, cost};
+    }
+  }
+  return cheapest;
 }
 
 }  // namespace
@@ -70,10 +79,7 @@ EdgeStencil sampleEdge(const EdgePotential& potential, int step) {
       stencil.push_back({columns, rows, static_cast<float>(potential.at(edge))});
     }
   }
-  if (stencil.empty()) {
-    const cv::Point nearest = nearestStep(potential, step);
-    stencil.push_back({nearest.x, nearest.y, static_cast<float>(potential.at(nearest * step))});
-  }
+  if (stencil.empty()) stencil.push_back(cheapestOffset(potential, step));
   return stencil;
 }
 

@@ -38,29 +38,83 @@ size_t firstEqualEdge(const std::vector<EdgeLayout>& edges, size_t k) {
   return static_cast<size_t>(std::find_if(edges.begin(), edges.end(), equal) - edges.begin());
 }
 
-/// Minimum of a quadratic through a min-marginal's 3 x 3 neighbourhood of the best state.
-struct QuadraticMinimum {
-  cv::Point2d offset;      // from the best state [lattice steps], within half a step
-  cv::Matx22d covariance;  // inverse of the Hessian [lattice steps^2]
+/// A min-marginal around the best state.
+class Bowl {
+ public:
+  Bowl(const cv::Mat1f& marginal, const cv::Point& state) : marginal_(marginal), state_(state) {}
+
+  /// States on all sides of the best one.
+  cv::Size margin() const {
+    return {std::min(state_.x, marginal_.cols - 1 - state_.x),
+            std::min(state_.y, marginal_.rows - 1 - state_.y)};
+  }
+
+  double at(int dx, int dy) const { return marginal_(state_.y + dy, state_.x + dx); }
+
+  /// Second differences over `reach` states to each side: the Hessian [1 / states^2].
+  cv::Matx22d hessian(const cv::Size& reach) const {
+    const int w = reach.width;
+    const int h = reach.height;
+    const double xx = (at(-w, 0) - 2.0 * at(0, 0) + at(w, 0)) / (w * w);
+    const double yy = (at(0, -h) - 2.0 * at(0, 0) + at(0, h)) / (h * h);
+    const double xy = (at(w, h) + at(-w, -h) - at(w, -h) - at(-w, h)) / (4.0 * w * h);
+    return {xx, xy, xy, yy};
+  }
+
+  /// Where it has risen by half, as a Gaussian has at one standard deviation, or where it ends.
+  /// Nearer to the bottom, messages show the steps of the lattice rather than the curvature.
+  cv::Size reachOfOneSigma() const {
+    constexpr double kRise = 0.5;
+    cv::Size reach(1, 1);
+    const double bottom = at(0, 0);
+    while (reach.width < margin().width &&
+           0.5 * (at(-reach.width, 0) + at(reach.width, 0)) - bottom < kRise) {
+      ++reach.width;
+    }
+    while (reach.height < margin().height &&
+           0.5 * (at(0, -reach.height) + at(0, reach.height)) - bottom < kRise) {
+      ++reach.height;
+    }
+    return reach;
+  }
+
+ private:
+  const cv::Mat1f& marginal_;
+  cv::Point state_;
 };
 
-QuadraticMinimum fitQuadratic(const cv::Mat1f& marginal, const cv::Point& state) {
-  const double unknown = std::numeric_limits<double>::quiet_NaN();
-  QuadraticMinimum minimum{{0.0, 0.0}, cv::Matx22d::all(unknown)};
-  const cv::Rect inner(1, 1, marginal.cols - 2, marginal.rows - 2);
-  if (!inner.contains(state)) return minimum;
-  const auto at = [&](int dx, int dy) -> double { return marginal(state.y + dy, state.x + dx); };
-  const double xx = at(-1, 0) - 2.0 * at(0, 0) + at(1, 0);
-  const double yy = at(0, -1) - 2.0 * at(0, 0) + at(0, 1);
-  const double xy = 0.25 * (at(1, 1) + at(-1, -1) - at(1, -1) - at(-1, 1));
-  const double determinant = xx * yy - xy * xy;
-  if (!std::isfinite(determinant) || xx <= 0.0 || yy <= 0.0 || determinant <= 0.0) return minimum;
-  minimum.covariance = cv::Matx22d(yy, -xy, -xy, xx) * (1.0 / determinant);
-  const double x = 0.5 * (at(1, 0) - at(-1, 0));
-  const double y = 0.5 * (at(0, 1) - at(0, -1));
-  minimum.offset = {std::clamp((xy * y - yy * x) / determinant, -0.5, 0.5),
-                    std::clamp((xy * x - xx * y) / determinant, -0.5, 0.5)};
-  return minimum;
+bool isPositiveDefinite(const cv::Matx22d& matrix) {
+  const double determinant = cv::determinant(matrix);
+  return std::isfinite(determinant) && matrix(0, 0) > 0.0 && determinant > 0.0;
+}
+
+/// Minimum of the quadratic through the 3 x 3 neighbourhood, within half a state of the best one.
+cv::Point2d minimumOffset(const Bowl& bowl) {
+  const cv::Matx22d hessian = bowl.hessian({1, 1});
+  if (!isPositiveDefinite(hessian)) return {0.0, 0.0};
+  const cv::Vec2d slope(0.5 * (bowl.at(1, 0) - bowl.at(-1, 0)),
+                        0.5 * (bowl.at(0, 1) - bowl.at(0, -1)));
+  const cv::Vec2d offset = -(hessian.inv() * slope);
+  return {std::clamp(offset[0], -0.5, 0.5), std::clamp(offset[1], -0.5, 0.5)};
+}
+
+/// Inverse of the Hessian [states^2]; NaN if it is none of a minimum.
+cv::Matx22d covarianceOf(const Bowl& bowl) {
+  const cv::Matx22d hessian = bowl.hessian(bowl.reachOfOneSigma());
+  if (isPositiveDefinite(hessian)) return hessian.inv();
+  return cv::Matx22d::all(std::numeric_limits<double>::quiet_NaN());
+}
+
+RefinedPart refinePart(const CandidateGrid& grid, std::size_t part, const cv::Mat1f& marginal,
+                       const cv::Point& state, double appearance) {
+  const Bowl bowl(marginal, state);
+  if (bowl.margin().width == 0 || bowl.margin().height == 0) {
+    return {grid.positionOf(part, state), appearance,
+            cv::Matx22d::all(std::numeric_limits<double>::quiet_NaN())};
+  }
+  const double step = grid.lattice.step;
+  return {grid.positionOf(part, cv::Point2d(state) + minimumOffset(bowl)), appearance,
+          covarianceOf(bowl) * (step * step)};
 }
 
 }  // namespace
@@ -136,12 +190,9 @@ std::vector<RefinedPart> refineChain(const SegmentLayout& segment, const Segment
   const std::vector<cv::Point> states = traceBack(edges, workspace);
   std::vector<cv::Mat1f> marginals;
   minMarginals(costs, edges, marginals, workspace);
-  const double step = grid.lattice.step;
   std::vector<RefinedPart> parts;
   for (size_t k = 0; k < states.size(); ++k) {
-    const QuadraticMinimum minimum = fitQuadratic(marginals[k], states[k]);
-    parts.push_back({grid.positionOf(k, cv::Point2d(states[k]) + minimum.offset),
-                     costs[k](states[k]), minimum.covariance * (step * step)});
+    parts.push_back(refinePart(grid, k, marginals[k], states[k], costs[k](states[k])));
   }
   return parts;
 }

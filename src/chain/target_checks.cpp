@@ -58,7 +58,9 @@ void requireInside(const Silhouette& silhouette, const cv::Size& image_size) {
   const cv::Rect2d bounds = uprightBounds(silhouette.points);
   const cv::Rect2d image(-0.5, -0.5, image_size.width, image_size.height);
   const cv::Rect2d grown(bounds.x - 0.5, bounds.y - 0.5, bounds.width + 1.0, bounds.height + 1.0);
-  if ((grown & image).area() >= 0.5 * grown.area()) return;
+  const bool half_inside = (grown & image).area() >= 0.5 * grown.area();
+  // A line may pass round the image although its bounds cover it.
+  if (half_inside && cv::countNonZero(maskOf(silhouette, image_size, 0.0)) > 0) return;
   std::ostringstream message;
   message << "the target spans x " << bounds.x << " to " << bounds.br().x << " and y " << bounds.y
           << " to " << bounds.br().y << " px, must lie at least half inside the "

@@ -14,6 +14,8 @@ constexpr int kLevels = 1 << kBits;
 constexpr int kShift = 8 - kBits;
 /// Enough for 24 clusters; more pixels change the centres by less than a level.
 constexpr int kMaxSamples = 6000;
+/// Of the object and of the ring each, if they have as many: neither is drowned by the other.
+constexpr int kMinSamples = 500;
 
 struct Samples {
   cv::Mat3b colors;  // BGR, one row
@@ -26,20 +28,29 @@ cv::Vec3b colorAt(const cv::Mat& image, int row, int column) {
   return {grey, grey, grey};
 }
 
-Samples sampleColors(const cv::Mat& image, const cv::Mat1b& object, const cv::Mat1b& ring) {
-  const int count = cv::countNonZero(object | ring);
-  const int stride = std::max(1, count / kMaxSamples);
-  Samples samples;
+/// Adds every n-th pixel under the mask.
+void addSamples(const cv::Mat& image, const cv::Mat1b& mask, bool on_object, int stride,
+                Samples& samples) {
   int seen = 0;
   for (int row = 0; row < image.rows; ++row) {
     for (int column = 0; column < image.cols; ++column) {
-      const bool on_object = object(row, column) != 0;
-      if (!on_object && ring(row, column) == 0) continue;
-      if (seen++ % stride != 0) continue;
+      if (mask(row, column) == 0 || seen++ % stride != 0) continue;
       samples.colors.push_back(colorAt(image, row, column));
       samples.on_object.push_back(on_object);
     }
   }
+}
+
+Samples sampleColors(const cv::Mat& image, const cv::Mat1b& object, const cv::Mat1b& ring) {
+  const int object_pixels = cv::countNonZero(object);
+  const int ring_pixels = cv::countNonZero(ring);
+  const int stride = (object_pixels + ring_pixels) / kMaxSamples;
+  const auto strideOf = [&](int pixels) {
+    return std::max(1, std::min(stride, pixels / kMinSamples));
+  };
+  Samples samples;
+  addSamples(image, object, true, strideOf(object_pixels), samples);
+  addSamples(image, ring, false, strideOf(ring_pixels), samples);
   samples.colors = samples.colors.reshape(3, 1);
   return samples;
 }

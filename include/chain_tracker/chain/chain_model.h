@@ -55,8 +55,8 @@ struct ChainModel {
   SearchModel search;
 };
 
-/// Every fault of the model, one sentence each, naming the key, its value and what is allowed;
-/// empty if the model can be used.
+/// Every fault of the model, one sentence each: it begins with the key, then its value and what is
+/// allowed; empty if the model can be used.
 std::vector<std::string> faultsOf(const ChainModel& model);
 
 }  // namespace chain_tracker
