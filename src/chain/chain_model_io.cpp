@@ -172,7 +172,7 @@ YAML::Node parseDocument(const std::string& yaml, const std::string& source) {
     const int line = documents.empty() ? 1 : documents[1].Mark().line + 1;
     throw std::invalid_argument(source + ":" + std::to_string(line) + ": has " +
                                 std::to_string(documents.size()) +
-                                " YAML documents, must be one map of keys");
+                                " YAML documents, must be a map of keys in one");
   } catch (const YAML::ParserException& error) {
     throw std::invalid_argument(source + ":" + std::to_string(error.mark.line + 1) +
                                 ": not valid YAML: " + error.msg);

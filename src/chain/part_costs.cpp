@@ -84,15 +84,21 @@ RootHistogram learnPart(const cv::Mat& image, const ColorPalette& palette,
                         const cv::Point2d& center, double side) {
   WindowLattice lattice;
   lattice.window_cells = std::max(1, static_cast<int>(std::lround(side)));
-  const double half = 0.5 * (lattice.window_cells - 1);
-  lattice.origin = {static_cast<int>(std::lround(center.x - half)),
-                    static_cast<int>(std::lround(center.y - half))};
-  lattice.size = {1, 1};
+  const cv::Point2d corner = center - cv::Point2d(1.0, 1.0) * (0.5 * (lattice.window_cells - 1));
+  lattice.origin = {cvFloor(corner.x), cvFloor(corner.y)};
+  lattice.size = {2, 2};
   std::vector<cv::Mat1f> roots;
   WindowHistogramsWorkspace workspace;
   computeWindowHistograms(image, palette, lattice, roots, workspace);
+  const auto right = static_cast<float>(corner.x - lattice.origin.x);
+  const auto down = static_cast<float>(corner.y - lattice.origin.y);
+  const auto share = [](float root) { return root * root; };
   RootHistogram histogram;
-  for (const cv::Mat1f& root : roots) histogram.push_back(root(0, 0));
+  for (const cv::Mat1f& root : roots) {
+    const float upper = (1.0F - right) * share(root(0, 0)) + right * share(root(0, 1));
+    const float lower = (1.0F - right) * share(root(1, 0)) + right * share(root(1, 1));
+    histogram.push_back(std::sqrt((1.0F - down) * upper + down * lower));
+  }
   return histogram;
 }
 

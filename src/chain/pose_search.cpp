@@ -100,7 +100,10 @@ cv::Point2d minimumOffset(const Bowl& bowl) {
 
 /// Inverse of the Hessian [states^2]; NaN if it is none of a minimum.
 cv::Matx22d covarianceOf(const Bowl& bowl) {
-  const cv::Matx22d hessian = bowl.hessian(bowl.reachOfOneSigma());
+  cv::Matx22d hessian = bowl.hessian(bowl.reachOfOneSigma());
+  if (isPositiveDefinite(hessian)) return hessian.inv();
+  // Far from the bottom a bowl may be no quadratic any more; its axes still tell its width.
+  hessian(0, 1) = hessian(1, 0) = 0.0;
   if (isPositiveDefinite(hessian)) return hessian.inv();
   return cv::Matx22d::all(std::numeric_limits<double>::quiet_NaN());
 }

@@ -114,8 +114,7 @@ TEST(ComputePartCosts, equalTheBhattacharyyaDistanceOfCountedPixels) {
       const ColorPalette palette = somePalette(image);
       const cv::Mat1b entries = brute_force::entriesOf(image, palette);
       // Parts inside the image, over its border, and outside it.
-      const std::vector<cv::Point2d> centers = {
-          {20.3, 20.8}, {36.0, 24.5}, {66.2, 40.1}, {-30.0, 10.0}};
+      const std::vector<cv::Point2d> centers = {{20, 21}, {36, 24}, {66, 40}, {-30, 10}};
       const double side = 13.0;
       const double weight = 3.5;
       const CandidateGrid grid = makeCandidateGrid(centers, side, step, 7.0);
@@ -210,11 +209,11 @@ TEST(LearnPart, countsTheWindowAroundTheCenter) {
   const ColorPalette palette = somePalette(image);
   const cv::Mat1b entries = brute_force::entriesOf(image, palette);
   for (int repeat = 0; repeat < 100; ++repeat) {
-    const cv::Point2d center = random.point(-10.0, 70.0);
     const int side = random.integer(1, 25);
+    const cv::Point corner(random.integer(-20, 60), random.integer(-20, 60));
+    const cv::Point2d center = cv::Point2d(corner) + 0.5 * cv::Point2d(side - 1, side - 1);
     const RootHistogram part = learnPart(image, palette, center, side + random.real(-0.49, 0.49));
-    const auto window =
-        brute_force::countWindow(entries, palette.size(), cornerOf(center, side), side);
+    const auto window = brute_force::countWindow(entries, palette.size(), corner, side);
     ASSERT_EQ(window.counts.size(), part.size());
     for (size_t entry = 0; entry < part.size(); ++entry) {
       EXPECT_NEAR(std::sqrt(double(window.counts[entry]) / window.pixels), part[entry], 1e-6)

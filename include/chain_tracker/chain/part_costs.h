@@ -44,7 +44,9 @@ void computePartCosts(const cv::Mat& image, const ColorPalette& palette,
                       const std::vector<RootHistogram>& parts, const CandidateGrid& grid,
                       double weight, std::vector<cv::Mat1f>& costs, PartCostsWorkspace& workspace);
 
-/// Histogram of the window of `side` [px] around `center`.
+/// Histogram of the window of `side` [px], rounded, around `center`: interpolated between the
+/// windows of whole pixels, so that matching finds the very centre again and not the pixel next to
+/// it.
 RootHistogram learnPart(const cv::Mat& image, const ColorPalette& palette,
                         const cv::Point2d& center, double side);
 
