@@ -27,6 +27,9 @@ constexpr double kFewestCells = 3.0;
 constexpr double kMostCandidates = 64.0;
 /// Reach of the widest search, fraction of the image diagonal.
 constexpr double kWidestSearch = 0.5;
+/// Of the refinement around the coarse match [px]: the windows of the coarse lattice are rounded to
+/// whole cells, which moves their optimum however fine the lattice is.
+constexpr int kLeastReach = 4;
 /// Keeps the fit defined when no part is seen.
 constexpr double kSmallestWeight = 1e-3;
 
@@ -188,7 +191,8 @@ class ChainTracker::Implementation {
     }
     const int step = (coarse.lattice.step + kRefinedSteps - 1) / kRefinedSteps;
     const double side = segment().parts.front().side * pose.scale;
-    return makeCandidateGrid(centers, side, step, coarse.lattice.step + step);
+    const double reach = std::max(kLeastReach, coarse.lattice.step + step);
+    return makeCandidateGrid(centers, side, step, reach);
   }
 
   Refinement refine(const cv::Mat& image, const CandidateGrid& coarse, const SegmentPose& previous,

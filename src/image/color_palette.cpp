@@ -2,7 +2,8 @@
 #include "chain_tracker/image/color_palette.h"
 
 #include <algorithm>
-#include <cstring>
+#include <cstddef>
+#include <limits>
 
 #include <opencv2/imgproc.hpp>
 
@@ -65,9 +66,10 @@ cv::Mat toLab(const cv::Mat3b& colors) {
 
 /// cv::kmeans draws from the thread's generator; a fixed state makes the palette reproducible and
 /// leaves the caller's sequence of random numbers as it was.
-cv::Mat1f clusterCenters(const cv::Mat& lab, int clusters, cv::Mat1i& labels) {
+cv::Mat1f clusterCenters(const cv::Mat& lab, int clusters) {
   const cv::RNG callers_generator = cv::theRNG();
   cv::theRNG() = cv::RNG(1);
+  cv::Mat labels;
   cv::Mat1f centers;
   const cv::TermCriteria criteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.2);
   cv::kmeans(lab, clusters, labels, criteria, 1, cv::KMEANS_PP_CENTERS, centers);
@@ -75,19 +77,39 @@ cv::Mat1f clusterCenters(const cv::Mat& lab, int clusters, cv::Mat1i& labels) {
   return centers;
 }
 
-/// Share of the object in each cluster, as if object and ring had the same number of pixels.
-std::vector<double> objectShares(const Samples& samples, const cv::Mat1i& labels, int clusters) {
-  std::vector<double> object(static_cast<size_t>(clusters), 0.0);
-  std::vector<double> ring(static_cast<size_t>(clusters), 0.0);
-  double object_total = 0.0;
-  for (size_t i = 0; i < samples.on_object.size(); ++i) {
-    const auto label = static_cast<size_t>(labels(static_cast<int>(i)));
-    (samples.on_object[i] ? object : ring)[label] += 1.0;
-    object_total += samples.on_object[i] ? 1.0 : 0.0;
+/// The first of the nearest centres: of several equal ones, as k-means makes them where there are
+/// fewer colours than clusters, only one is ever named.
+std::size_t nearestCluster(const float* lab, const cv::Mat1f& centers) {
+  std::size_t nearest = 0;
+  float nearest_distance = std::numeric_limits<float>::infinity();
+  for (int c = 0; c < centers.rows; ++c) {
+    const float* center = centers[c];
+    const float dl = lab[0] - center[0];
+    const float da = lab[1] - center[1];
+    const float db = lab[2] - center[2];
+    const float distance = dl * dl + da * da + db * db;
+    if (distance < nearest_distance) {
+      nearest_distance = distance;
+      nearest = static_cast<std::size_t>(c);
+    }
   }
-  const double ring_total = static_cast<double>(samples.on_object.size()) - object_total;
-  std::vector<double> shares(static_cast<size_t>(clusters), 0.0);
-  for (size_t c = 0; c < shares.size(); ++c) {
+  return nearest;
+}
+
+/// Share of the object in each cluster, as if object and ring had the same number of pixels.
+std::vector<double> objectShares(const std::vector<bool>& on_object, const cv::Mat1f& lab,
+                                 const cv::Mat1f& centers) {
+  std::vector<double> object(static_cast<std::size_t>(centers.rows), 0.0);
+  std::vector<double> ring(object.size(), 0.0);
+  double object_total = 0.0;
+  for (std::size_t i = 0; i < on_object.size(); ++i) {
+    const std::size_t cluster = nearestCluster(lab[static_cast<int>(i)], centers);
+    (on_object[i] ? object : ring)[cluster] += 1.0;
+    object_total += on_object[i] ? 1.0 : 0.0;
+  }
+  const double ring_total = static_cast<double>(on_object.size()) - object_total;
+  std::vector<double> shares(object.size(), 0.0);
+  for (std::size_t c = 0; c < shares.size(); ++c) {
     const double p_object = object[c] / std::max(object_total, 1.0);
     const double p_ring = ring[c] / std::max(ring_total, 1.0);
     if (p_object + p_ring > 0.0) shares[c] = p_object / (p_object + p_ring);
@@ -107,30 +129,12 @@ std::vector<std::uint8_t> entriesOf(const std::vector<double>& shares, double mi
   return entries;
 }
 
-std::uint8_t nearestEntry(const float* lab, const cv::Mat1f& centers,
-                          const std::vector<std::uint8_t>& entries) {
-  int nearest = 0;
-  float nearest_distance = std::numeric_limits<float>::infinity();
-  for (int c = 0; c < centers.rows; ++c) {
-    const float* center = centers[c];
-    const float dl = lab[0] - center[0];
-    const float da = lab[1] - center[1];
-    const float db = lab[2] - center[2];
-    const float distance = dl * dl + da * da + db * db;
-    if (distance < nearest_distance) {
-      nearest_distance = distance;
-      nearest = c;
-    }
-  }
-  return entries[static_cast<size_t>(nearest)];
-}
-
 std::vector<std::uint8_t> nearestEntries(const cv::Mat3b& colors, const cv::Mat1f& centers,
                                          const std::vector<std::uint8_t>& entries) {
   const cv::Mat1f lab = toLab(colors);
   std::vector<std::uint8_t> table(colors.total());
   for (int i = 0; i < lab.rows; ++i) {
-    table[static_cast<size_t>(i)] = nearestEntry(lab[i], centers, entries);
+    table[static_cast<size_t>(i)] = entries[nearestCluster(lab[i], centers)];
   }
   return table;
 }
@@ -160,12 +164,10 @@ void prepareForPalettes() { toLab(cv::Mat3b(1, 1, cv::Vec3b())); }
 ColorPalette::ColorPalette(const cv::Mat& image, const cv::Mat1b& object, const cv::Mat1b& ring,
                            const PaletteOptions& options) {
   const Samples samples = sampleColors(image, object, ring);
-  const cv::Mat lab = toLab(samples.colors);
-  cv::Mat1i labels;
-  const int clusters = std::min(options.colors, lab.rows);
-  const cv::Mat1f centers = clusterCenters(lab, clusters, labels);
+  const cv::Mat1f lab = toLab(samples.colors);
+  const cv::Mat1f centers = clusterCenters(lab, std::min(options.colors, lab.rows));
   const std::vector<std::uint8_t> entries =
-      entriesOf(objectShares(samples, labels, clusters), options.min_object_share);
+      entriesOf(objectShares(samples.on_object, lab, centers), options.min_object_share);
   size_ = 1 + *std::max_element(entries.begin(), entries.end());
   if (image.channels() == 3) {
     bgr_table_ = nearestEntries(tableColors(), centers, entries);
