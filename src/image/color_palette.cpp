@@ -64,6 +64,24 @@ cv::Mat toLab(const cv::Mat3b& colors) {
   return lab.reshape(1, static_cast<int>(colors.total()));
 }
 
+/// Centres nearer than this look alike [Lab units].
+constexpr double kSameColor = 0.5;
+
+/// Where there are fewer colours than clusters, k-means fills the superfluous ones with single
+/// pixels of a colour that has one already; such a twin's share of the object would be decided by
+/// chance.
+cv::Mat1f withoutTwins(const cv::Mat1f& centers) {
+  cv::Mat1f distinct;
+  for (int c = 0; c < centers.rows; ++c) {
+    bool is_twin = false;
+    for (int i = 0; i < distinct.rows; ++i) {
+      is_twin = is_twin || cv::norm(centers.row(c), distinct.row(i)) < kSameColor;
+    }
+    if (!is_twin) distinct.push_back(centers.row(c));
+  }
+  return distinct;
+}
+
 /// cv::kmeans draws from the thread's generator; a fixed state makes the palette reproducible and
 /// leaves the caller's sequence of random numbers as it was.
 cv::Mat1f clusterCenters(const cv::Mat& lab, int clusters) {
@@ -74,11 +92,9 @@ cv::Mat1f clusterCenters(const cv::Mat& lab, int clusters) {
   const cv::TermCriteria criteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.2);
   cv::kmeans(lab, clusters, labels, criteria, 1, cv::KMEANS_PP_CENTERS, centers);
   cv::theRNG() = callers_generator;
-  return centers;
+  return withoutTwins(centers);
 }
 
-/// The first of the nearest centres: of several equal ones, as k-means makes them where there are
-/// fewer colours than clusters, only one is ever named.
 std::size_t nearestCluster(const float* lab, const cv::Mat1f& centers) {
   std::size_t nearest = 0;
   float nearest_distance = std::numeric_limits<float>::infinity();
