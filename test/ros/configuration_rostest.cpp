@@ -46,6 +46,7 @@ TEST(Configuration, AFaultyParameterLeavesTheNodeAliveAndIdle) {
     SCOPED_TRACE(node);
     ASSERT_TRUE(ros::service::waitForService(node + "/get_loggers", ros::Duration(kDeadline)));
     TrackerClient others("text");
+    ASSERT_TRUE(others.ready());
     for (int k = 0; k < 3; ++k) ASSERT_TRUE(others.show(scene().with({BottlePose()})));
     EXPECT_TRUE(isAlive(node));
     EXPECT_FALSE(ros::service::exists(node + "/set_target", false));
