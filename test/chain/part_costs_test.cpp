@@ -222,5 +222,32 @@ TEST(LearnPart, countsTheWindowAroundTheCenter) {
   }
 }
 
+TEST(LearnPart, interpolatesBetweenTheWindowsOfWholePixels) {
+  RandomInputs random(8);
+  const cv::Mat image = texture(random, {60, 40}, CV_8UC3);
+  const ColorPalette palette = somePalette(image);
+  const cv::Mat1b entries = brute_force::entriesOf(image, palette);
+  const auto share = [&](const cv::Point& corner, int side, size_t entry) {
+    const auto window = brute_force::countWindow(entries, palette.size(), corner, side);
+    return double(window.counts[entry]) / window.pixels;
+  };
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    const int side = random.integer(4, 20);
+    const cv::Point corner(random.integer(-10, 50), random.integer(-10, 30));
+    const cv::Point2d rest = random.point(0.0, 0.999);
+    const cv::Point2d center = cv::Point2d(corner) + rest + 0.5 * cv::Point2d(side - 1, side - 1);
+    const RootHistogram part = learnPart(image, palette, center, side);
+    for (size_t entry = 0; entry < part.size(); ++entry) {
+      const double expected =
+          (1.0 - rest.x) * (1.0 - rest.y) * share(corner, side, entry) +
+          rest.x * (1.0 - rest.y) * share(corner + cv::Point(1, 0), side, entry) +
+          (1.0 - rest.x) * rest.y * share(corner + cv::Point(0, 1), side, entry) +
+          rest.x * rest.y * share(corner + cv::Point(1, 1), side, entry);
+      EXPECT_NEAR(expected, part[entry] * part[entry], 1e-5)
+          << "entry " << entry << " of " << side << " px at " << center;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace chain_tracker

@@ -82,6 +82,15 @@ TEST(ColorPalette, leavesTheCallersGeneratorAlone) {
   EXPECT_EQ(4242U, cv::theRNG().state);
 }
 
+TEST(ColorPalette, isTheSameWhetherPreparedForOrNot) {
+  const Scene scene = noiseScene(CV_8UC3, 6);
+  const cv::Mat1b unprepared = classified(scene.palette(), scene.image);
+  cv::theRNG().state = 4242;
+  prepareForPalettes();
+  EXPECT_EQ(4242U, cv::theRNG().state);
+  EXPECT_EQ("", firstDifference(unprepared, classified(scene.palette(), scene.image)));
+}
+
 TEST(ColorPalette, differentColorsOfTheObjectGetDifferentEntries) {
   Scene scene(kBlue);
   scene.paint(kObject, kRed).paint({20, 15, 20, 30}, kGreen);

@@ -22,8 +22,11 @@ bool isAlive(const std::string& node) {
 }
 
 /// All nodes hear the same images: the tests show the same picture all the time.
+/// "listed" and "text" listen to the same images; the faulty ones are idle.
+constexpr std::uint32_t kListeners = 2;
+
 TEST(Configuration, FaultyObjectsOfTheListDoNotTouchTheGoodOne) {
-  TrackerClient client("listed");
+  TrackerClient client("listed", "image", kListeners);
   ASSERT_TRUE(client.ready());
   for (int k = 0; k < 3; ++k) {
     const auto objects = client.show(scene().with({BottlePose()}));
@@ -34,7 +37,7 @@ TEST(Configuration, FaultyObjectsOfTheListDoNotTouchTheGoodOne) {
 }
 
 TEST(Configuration, PointsAsTextGiveAnObject) {
-  TrackerClient client("text");
+  TrackerClient client("text", "image", kListeners);
   ASSERT_TRUE(client.ready());
   const auto object = objectOf(client.show(scene().with({BottlePose()})), "hose");
   ASSERT_TRUE(object);
@@ -45,7 +48,7 @@ TEST(Configuration, AFaultyParameterLeavesTheNodeAliveAndIdle) {
   for (const std::string node : {"faulty", "no_transport"}) {
     SCOPED_TRACE(node);
     ASSERT_TRUE(ros::service::waitForService(node + "/get_loggers", ros::Duration(kDeadline)));
-    TrackerClient others("text");
+    TrackerClient others("text", "image", kListeners);
     ASSERT_TRUE(others.ready());
     for (int k = 0; k < 3; ++k) ASSERT_TRUE(others.show(scene().with({BottlePose()})));
     EXPECT_TRUE(isAlive(node));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <future>
 #include <optional>
@@ -44,13 +45,16 @@ inline ros::Time nextStamp() {
 
 class TrackerClient {
  public:
-  explicit TrackerClient(const std::string& tracker, const std::string& image_topic = "image")
+  /// `listeners`: trackers on the image topic. All of them have to be connected: one that is not
+  /// yet would miss the first image.
+  explicit TrackerClient(const std::string& tracker, const std::string& image_topic = "image",
+                         std::uint32_t listeners = 1)
       : tracker_(tracker) {
     ros::NodeHandle node;
     images_ = node.advertise<sensor_msgs::Image>(image_topic, 100);
     objects_ = node.subscribe(tracker + "/objects", 100, &TrackerClient::receive, this);
-    ready_ = waitUntil([this] {
-      return images_.getNumSubscribers() > 0 && objects_.getNumPublishers() > 0 &&
+    ready_ = waitUntil([&] {
+      return images_.getNumSubscribers() >= listeners && objects_.getNumPublishers() > 0 &&
              ros::service::exists(tracker_ + "/set_target", false);
     });
   }
