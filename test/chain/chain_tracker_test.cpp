@@ -160,8 +160,8 @@ TEST(ChainTracker, deformableModelFollowsAPolyline) {
   segment.orientation_hypotheses = segment.scale_hypotheses = 1;
   const std::vector<cv::Point2d> line = {{-40, -20}, {0, 10}, {40, -10}};
   const auto placed = [&](const Similarity& pose) {
-    std::vector<cv::Point2d> points;
-    for (const cv::Point2d& point : line) points.push_back(pose.apply(point));
+    std::vector<cv::Point2d> points = line;
+    for (cv::Point2d& point : points) point = pose.apply(point);
     return points;
   };
   ChainTracker tracker(model, box.image(kStart), placed(kStart));
@@ -172,6 +172,29 @@ TEST(ChainTracker, deformableModelFollowsAPolyline) {
   }
   for (size_t i = 0; i < line.size(); ++i) {
     EXPECT_LT(cv::norm(tracker.state().points[i].position - placed(pose)[i]), kFewPixels);
+  }
+}
+
+/// Where one pose is searched, its steps are the most that the fit may turn and rescale in a frame.
+TEST(ChainTracker, singlePoseTurnsAndRescalesByOneStepAtMost) {
+  const DrawnBox box;
+  ChainModel model;
+  SegmentModel& segment = model.segments[0];
+  segment.layout = Layout::kDeformable;
+  segment.parts = 9;
+  segment.bend_sigma = 0.3;
+  segment.orientation_hypotheses = segment.scale_hypotheses = 1;
+  segment.orientation_step = 0.02;
+  segment.scale_step = 0.01;
+  const std::vector<cv::Point2d> line = {kStart.apply({-40, 0}), kStart.apply({40, 0})};
+  for (double change : {0.1, -0.1}) {
+    ChainTracker tracker(model, box.image(kStart), line);
+    const Similarity pose{change, std::exp(change), kStart.translation};
+    const ChainState& state = tracker.update(box.image(pose));
+    ASSERT_NE(TrackingStatus::kLost, state.status);
+    const Similarity& found = state.segments[0].image_from_segment;
+    EXPECT_NEAR(change > 0.0 ? 0.02 : -0.02, found.angle, 1e-9);
+    EXPECT_NEAR(change > 0.0 ? 0.01 : -0.01, std::log(found.scale), 1e-9);
   }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -126,6 +127,25 @@ TEST(RefineChain, findsPositionAndCovarianceOfATurnedGaussian) {
   ASSERT_EQ(1U, parts.size());
   EXPECT_LT(cv::norm(parts[0].position - mean), 1e-3);
   expectCovariance(covariance, parts[0].covariance, 1e-3);
+}
+
+/// A ridge along one diagonal only: its second differences are those of no quadratic.
+TEST(RefineChain, covarianceOfALopsidedBowlKeepsTheWidthsOfItsAxes) {
+  const CandidateGrid grid = makeCandidateGrid({{60, 40}}, 11.0, 1, 4.0);
+  const cv::Point middle(grid.states / 2);
+  const cv::Point2d mean = grid.positionOf(0, cv::Point2d(middle));
+  cv::Mat1f costs = gaussianCosts(grid, 0, mean, cv::Matx22d(9.0, 0.0, 0.0, 4.0));
+  for (int row = 0; row < costs.rows; ++row) {
+    for (int column = 0; column < costs.cols; ++column) {
+      const int product = (column - middle.x) * (row - middle.y);
+      costs(row, column) += 2.0F * static_cast<float>(std::max(0, product));
+    }
+  }
+  ChainSolverWorkspace workspace;
+  const auto parts = refineChain(onePart(), {0.0, 1.0}, grid, {costs}, workspace);
+  ASSERT_EQ(1U, parts.size());
+  EXPECT_EQ(mean, parts[0].position);
+  expectCovariance(cv::Matx22d(9.0, 0.0, 0.0, 4.0), parts[0].covariance, 1e-3);
 }
 
 TEST(RefineChain, covarianceIsUnknownAtTheBorderOfTheSearch) {

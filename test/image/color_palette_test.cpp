@@ -182,14 +182,18 @@ TEST(ColorPalette, toldApartInAGreyImage) {
   EXPECT_EQ(kOnlyOther, entriesIn(palette, scene.image, {0, 0, 80, 15}));
 }
 
+/// The ring is 1600 times as large as the object, and blue is on a tenth of that.
 TEST(ColorPalette, smallObjectInALargeRingIsNotOverlooked) {
   cv::Mat image(400, 400, CV_8UC3, kGreen);
   cv::Mat1b object(image.size(), uchar(0));
-  object(cv::Rect(201, 200, 3, 1)).setTo(255);
+  object(cv::Rect(200, 200, 20, 5)).setTo(255);
   image.setTo(kRed, object);
+  image(cv::Rect(203, 200, 2, 5)).setTo(kBlue);
   const ColorPalette palette(image, object, cv::Mat1b(~object), {});
-  EXPECT_NE(ColorPalette::kOther, entryAt(palette, image, {202, 200}));
   EXPECT_EQ(ColorPalette::kOther, entryAt(palette, image, {0, 0}));
+  EXPECT_NE(ColorPalette::kOther, entryAt(palette, image, {210, 202}));
+  EXPECT_NE(ColorPalette::kOther, entryAt(palette, image, {203, 202}));
+  EXPECT_NE(entryAt(palette, image, {210, 202}), entryAt(palette, image, {203, 202}));
 }
 
 TEST(ColorPalette, worksWithFewerPixelsThanColors) {
