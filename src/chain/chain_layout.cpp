@@ -187,36 +187,96 @@ SegmentLayout layOutPolyline(const SegmentModel& model, const std::vector<cv::Po
   return segment;
 }
 
-std::vector<EdgeLayout> edgesBetween(const std::vector<PartLayout>& parts,
-                                     const SegmentModel& model) {
+std::vector<EdgeLayout> edgesOf(const SegmentLayout& segment, const SegmentModel& model) {
+  const std::vector<cv::Point2d> nodes = nodesOf(segment);
   std::vector<EdgeLayout> edges;
-  for (size_t k = 1; k < parts.size(); ++k) {
-    const cv::Point2d edge = parts[k].position - parts[k - 1].position;
+  for (size_t k = 1; k < nodes.size(); ++k) {
+    const cv::Point2d edge = nodes[k] - nodes[k - 1];
     edges.push_back({cv::norm(edge), directionOf(edge), model.stretch_sigma, model.bend_sigma});
   }
   return edges;
 }
 
+SegmentLayout layOutSegment(const SegmentModel& model, const std::vector<cv::Point2d>& points) {
+  SegmentLayout segment = model.layout == Layout::kDeformable ? layOutPolyline(model, points)
+                                                              : layOutRectangle(model, points);
+  segment.name = model.name;
+  segment.layout = model.layout;
+  segment.points = applyInverseAll(segment.image_from_segment, points);
+  return segment;
+}
+
+/// Parts in the middles of equal pieces of the polyline: none of them on a joint.
+void centerBetweenEnds(SegmentLayout& segment, const std::vector<cv::Point2d>& points) {
+  const int count = static_cast<int>(segment.parts.size());
+  const std::vector<cv::Point2d> halves = resample(points, 2 * count + 1);
+  for (size_t k = 0; k < segment.parts.size(); ++k) {
+    segment.parts[k].position = segment.image_from_segment.applyInverse(halves[2 * k + 1]);
+    segment.parts[k].side *= double(count - 1) / count;
+  }
+}
+
+void requireVertices(const ChainModel& model, const std::vector<cv::Point2d>& points) {
+  if (points.size() == model.segments.size() + 1) return;
+  refuse("model " + model.name + " was given " + std::to_string(points.size()) +
+         " points, must be the " + std::to_string(model.segments.size() + 1) + " vertices of its " +
+         std::to_string(model.segments.size()) + " joined segments");
+}
+
+/// Segments between the vertices of a polyline, joined there.
+std::vector<SegmentLayout> layOutJoined(const ChainModel& model,
+                                        const std::vector<cv::Point2d>& points) {
+  requireVertices(model, points);
+  for (size_t i = 1; i < points.size(); ++i) requireApart(points, i - 1, i);
+  std::vector<SegmentLayout> segments;
+  for (size_t m = 0; m < model.segments.size(); ++m) {
+    const std::vector<cv::Point2d> ends = {points[m], points[m + 1]};
+    SegmentLayout segment = layOutSegment(model.segments[m], ends);
+    if (segment.layout == Layout::kDeformable) centerBetweenEnds(segment, ends);
+    if (m > 0) segment.entry = segment.points.front();
+    if (m + 1 < model.segments.size()) segment.exit = segment.points.back();
+    segments.push_back(std::move(segment));
+  }
+  return segments;
+}
+
+/// A stroke as wide as the segments are on average, or the rectangle of a single one.
+Silhouette silhouetteOf(const ChainModel& model, const std::vector<SegmentLayout>& segments,
+                        const std::vector<cv::Point2d>& points) {
+  if (segments.size() == 1 && segments.front().layout != Layout::kDeformable) {
+    return {applyAll(segments.front().image_from_segment, segments.front().corners), 0.0};
+  }
+  double width = 0.0;
+  for (size_t m = 0; m < segments.size(); ++m) {
+    const std::vector<cv::Point2d> line =
+        applyAll(segments[m].image_from_segment, segments[m].points);
+    width += model.segments[m].aspect * lengthOf(line) / double(segments.size());
+  }
+  return {points, width};
+}
+
 }  // namespace
+
+std::vector<cv::Point2d> nodesOf(const SegmentLayout& segment) {
+  std::vector<cv::Point2d> nodes;
+  if (segment.entry) nodes.push_back(*segment.entry);
+  for (const PartLayout& part : segment.parts) nodes.push_back(part.position);
+  if (segment.exit) nodes.push_back(*segment.exit);
+  return nodes;
+}
 
 ChainLayout layOut(const ChainModel& model, const std::vector<cv::Point2d>& points) {
   requireFinite(points);
-  const SegmentModel& segment_model = model.segments.front();
-  const bool polyline = segment_model.layout == Layout::kDeformable;
-  SegmentLayout segment =
-      polyline ? layOutPolyline(segment_model, points) : layOutRectangle(segment_model, points);
-  segment.name = segment_model.name;
-  segment.layout = segment_model.layout;
-  segment.edges = edgesBetween(segment.parts, segment_model);
-  segment.points = applyInverseAll(segment.image_from_segment, points);
-
   ChainLayout layout;
-  if (polyline) {
-    layout.silhouette = {points, segment_model.aspect * lengthOf(points)};
+  if (model.segments.size() == 1) {
+    layout.segments = {layOutSegment(model.segments.front(), points)};
   } else {
-    layout.silhouette = {applyAll(segment.image_from_segment, segment.corners), 0.0};
+    layout.segments = layOutJoined(model, points);
   }
-  layout.segments.push_back(std::move(segment));
+  for (size_t m = 0; m < layout.segments.size(); ++m) {
+    layout.segments[m].edges = edgesOf(layout.segments[m], model.segments[m]);
+  }
+  layout.silhouette = silhouetteOf(model, layout.segments, points);
   return layout;
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/chain/chain_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 namespace chain_tracker {
 namespace {
+
+constexpr size_t kMostSegments = 32;
 
 class FaultList {
  public:
@@ -50,6 +53,26 @@ void checkSegment(const SegmentModel& segment, const std::string& prefix, FaultL
   faults.requireRange(prefix + "scale_sigma", segment.scale_sigma, 0.002, 10.0);
 }
 
+void checkJoints(const ChainModel& model, FaultList& faults) {
+  const size_t wanted = model.segments.size() - std::min<size_t>(1, model.segments.size());
+  if (!model.joints.empty() && model.joints.size() != wanted) {
+    faults.add("joints has " + std::to_string(model.joints.size()) +
+               " entries, must have none or one fewer than segments: " + std::to_string(wanted));
+  }
+  for (size_t i = 0; i < model.joints.size(); ++i) {
+    const std::string prefix = "joints[" + std::to_string(i) + "]/";
+    const JointModel& joint = model.joints[i];
+    faults.requireRange(prefix + "min_angle", joint.min_angle, -kFreeJoint, kFreeJoint);
+    faults.requireRange(prefix + "max_angle", joint.max_angle, joint.min_angle, kFreeJoint);
+  }
+  if (model.segments.size() < 2) return;
+  for (size_t i = 0; i < model.segments.size(); ++i) {
+    if (model.segments[i].layout != Layout::kPlanar) continue;
+    faults.add("segments[" + std::to_string(i) +
+               "]/layout is planar, must be elongated or deformable where segments are joined");
+  }
+}
+
 void checkAppearance(const AppearanceModel& appearance, FaultList& faults) {
   faults.requireRange("appearance/palette_colors", appearance.palette_colors, 2, 254);
   faults.requireRange("appearance/ring", appearance.ring, 0.05, 3.0);
@@ -75,13 +98,14 @@ void checkSearch(const SearchModel& search, FaultList& faults) {
 std::vector<std::string> faultsOf(const ChainModel& model) {
   FaultList faults;
   faults.requireText("name", model.name);
-  if (model.segments.size() != 1) {
+  if (model.segments.empty() || model.segments.size() > kMostSegments) {
     faults.add("segments has " + std::to_string(model.segments.size()) +
-               " entries, must have exactly 1");
+               " entries, must have 1 to " + std::to_string(kMostSegments));
   }
   for (size_t i = 0; i < model.segments.size(); ++i) {
     checkSegment(model.segments[i], "segments[" + std::to_string(i) + "]/", faults);
   }
+  checkJoints(model, faults);
   checkAppearance(model.appearance, faults);
   checkSearch(model.search, faults);
   return faults.take();

@@ -153,6 +153,14 @@ void readSegments(const Reader& reader, std::vector<SegmentModel>& segments) {
   }
 }
 
+void readJoints(const Reader& reader, std::vector<JointModel>& joints) {
+  for (const Reader& item : reader.items()) {
+    joints.emplace_back();
+    item.readMap({{"min_angle", into(joints.back().min_angle)},
+                  {"max_angle", into(joints.back().max_angle)}});
+  }
+}
+
 /// `lines`: each sentence of faultsOf() begins with its key.
 void requireUsable(const ChainModel& model, const std::string& source, const KeyLines& lines) {
   std::string message;
@@ -188,6 +196,7 @@ ChainModel parseChainModel(const std::string& yaml, const std::string& source) {
   Reader(document, source, "", std::max(1, document.Mark().line + 1), &lines)
       .readMap({{"name", into(model.name)},
                 {"segments", [&](const Reader& r) { readSegments(r, model.segments); }},
+                {"joints", [&](const Reader& r) { readJoints(r, model.joints); }},
                 {"appearance", [&](const Reader& r) { readAppearance(r, model.appearance); }},
                 {"search", [&](const Reader& r) { readSearch(r, model.search); }}});
   requireUsable(model, source, lines);

@@ -7,23 +7,6 @@
 namespace chain_tracker {
 namespace {
 
-struct CheapestState {
-  cv::Point state;
-  float cost = std::numeric_limits<float>::infinity();
-};
-
-CheapestState cheapestState(const cv::Mat1f& map) {
-  CheapestState cheapest;
-  for (int row = 0; row < map.rows; ++row) {
-    const float* costs = map[row];
-    const float* smallest = std::min_element(costs, costs + map.cols);
-    if (*smallest < cheapest.cost) {
-      cheapest = {{static_cast<int>(smallest - costs), row}, *smallest};
-    }
-  }
-  return cheapest;
-}
-
 /// The state of part k from which its best successor in `state` is reached.
 cv::Point bestPredecessor(const cv::Mat1f& forward, const EdgeStencil& edge,
                           const cv::Point& state) {
@@ -44,6 +27,19 @@ cv::Point bestPredecessor(const cv::Mat1f& forward, const EdgeStencil& edge,
 
 }  // namespace
 
+cv::Point cheapestState(const cv::Mat1f& map) {
+  cv::Point cheapest;
+  float least = std::numeric_limits<float>::infinity();
+  for (int row = 0; row < map.rows; ++row) {
+    const float* costs = map[row];
+    const float* smallest = std::min_element(costs, costs + map.cols);
+    if (*smallest >= least) continue;
+    least = *smallest;
+    cheapest = {static_cast<int>(smallest - costs), row};
+  }
+  return cheapest;
+}
+
 double forwardPass(const std::vector<cv::Mat1f>& unary, const std::vector<EdgeStencil>& edges,
                    ChainSolverWorkspace& workspace) {
   workspace.forward.resize(unary.size());
@@ -53,13 +49,14 @@ double forwardPass(const std::vector<cv::Mat1f>& unary, const std::vector<EdgeSt
     minConvolve(workspace.forward[k - 1], edges[k - 1], forward, workspace.convolution);
     forward += unary[k];
   }
-  return cheapestState(workspace.forward.back()).cost;
+  const cv::Mat1f& last = workspace.forward.back();
+  return last(cheapestState(last));
 }
 
-std::vector<cv::Point> traceBack(const std::vector<EdgeStencil>& edges,
+std::vector<cv::Point> traceBack(const std::vector<EdgeStencil>& edges, const cv::Point& end,
                                  const ChainSolverWorkspace& workspace) {
   std::vector<cv::Point> states(workspace.forward.size());
-  states.back() = cheapestState(workspace.forward.back()).state;
+  states.back() = end;
   for (size_t k = edges.size(); k > 0; --k) {
     states[k - 1] = bestPredecessor(workspace.forward[k - 1], edges[k - 1], states[k]);
   }

@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <utility>
 
-#include "chain_tracker/chain/carried_shape.h"
 #include "chain_tracker/chain/chain_layout.h"
+#include "chain_tracker/chain/chain_matcher.h"
+#include "chain_tracker/chain/chain_refinement.h"
 #include "chain_tracker/chain/object_appearance.h"
+#include "chain_tracker/chain/object_shape.h"
 #include "chain_tracker/chain/part_costs.h"
-#include "chain_tracker/chain/pose_search.h"
+#include "chain_tracker/chain/pose_grid.h"
 #include "chain_tracker/chain/similarity_fit.h"
 #include "chain_tracker/chain/target_checks.h"
 
@@ -47,15 +51,26 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-SegmentPose poseOf(const SegmentState& segment) {
-  return {segment.image_from_segment.angle, segment.image_from_segment.scale};
+std::vector<SegmentPose> posesOf(const ChainState& state) {
+  std::vector<SegmentPose> poses;
+  for (const SegmentState& segment : state.segments) {
+    poses.push_back({segment.image_from_segment.angle, segment.image_from_segment.scale});
+  }
+  return poses;
 }
 
 /// The match at full resolution; no parts if the springs allow no chain.
 struct Refinement {
-  SegmentPose pose;
+  std::vector<SegmentPose> poses;
   double energy = 0.0;
   std::vector<RefinedPart> parts;
+};
+
+/// What is looked at in a frame: one entry a segment.
+struct Search {
+  std::vector<CandidateGrid> grids;
+  std::vector<SegmentCandidates> candidates;
+  std::vector<PoseGrid> poses;
 };
 
 double clampedTurn(double from, double to, double limit) {
@@ -74,7 +89,7 @@ class ChainTracker::Implementation {
                  const std::vector<cv::Point2d>& points)
       : model_(checked(model, image)),
         layout_(checked(layOut(model, points), image.size())),
-        shape_(segment()),
+        shape_(layout_.segments),
         appearance_(learnAppearance(image, layout_, model.appearance)),
         image_size_(image.size()),
         image_type_(image.type()),
@@ -84,14 +99,12 @@ class ChainTracker::Implementation {
     requireSameKind(image, image_size_, image_type_);
     Stopwatch watch;
     StepTimes times;
-    const CandidateGrid grid = coarseGrid();
-    computeCosts(image, grid);
+    const std::vector<SegmentPose> previous = posesOf(state_);
+    const Search coarse = coarseSearch(image, previous);
     times.part_costs = watch.lap();
-    const SegmentPose previous = poseOf(state_.segments.front());
-    const PoseMatch match = searchPose(segment(), segmentModel(), previous, coarsePoses(previous),
-                                       grid, costs_, solver_workspace_);
+    const ChainMatch match = matched(coarse, previous);
     times.matching = watch.lap();
-    const Refinement refinement = refine(image, grid, previous, match);
+    const Refinement refinement = refine(image, coarse, previous, match);
     times.refinement = watch.lap();
     accept(refinement);
     times.pose = watch.lap();
@@ -115,24 +128,25 @@ class ChainTracker::Implementation {
     return layout;
   }
 
-  const SegmentLayout& segment() const { return layout_.segments.front(); }
-  const SegmentModel& segmentModel() const { return model_.segments.front(); }
+  size_t segments() const { return layout_.segments.size(); }
 
   ChainState initialState() const {
     ChainState state;
-    for (const PartLayout& part : segment().parts) {
-      PartState part_state;
-      part_state.position = segment().image_from_segment.apply(part.position);
-      part_state.side = part.side;
-      part_state.confidence = 1.0;
-      part_state.visible = true;
-      part_state.covariance = cv::Matx22d::zeros();
-      state.parts.push_back(part_state);
+    for (const SegmentLayout& segment : layout_.segments) {
+      state.segments.push_back({segment.name, segment.image_from_segment, 1.0,
+                                static_cast<int>(state.parts.size()),
+                                static_cast<int>(segment.parts.size())});
+      for (const PartLayout& part : segment.parts) {
+        PartState part_state;
+        part_state.position = segment.image_from_segment.apply(part.position);
+        part_state.confidence = 1.0;
+        part_state.visible = true;
+        part_state.covariance = cv::Matx22d::zeros();
+        state.parts.push_back(part_state);
+      }
     }
-    state.segments = {{segment().name, segment().image_from_segment, 1.0, 0,
-                       static_cast<int>(state.parts.size())}};
     state.confidence = 1.0;
-    carryShape(state);
+    shape_.carry(state);
     return state;
   }
 
@@ -143,6 +157,18 @@ class ChainTracker::Implementation {
     return diagonal * std::min(reach, std::max(model_.search.radius, kWidestSearch));
   }
 
+  double sideOf(size_t m, double scale) const {
+    return layout_.segments[m].parts.front().side * scale;
+  }
+
+  double smallestSide(const std::vector<SegmentPose>& poses) const {
+    double smallest = sideOf(0, poses[0].scale);
+    for (size_t m = 1; m < segments(); ++m) {
+      smallest = std::min(smallest, sideOf(m, poses[m].scale));
+    }
+    return smallest;
+  }
+
   /// An eighth of a window, or coarser where a wide search would have too many candidates.
   int coarseStep(double side, double radius) const {
     const double fine = side / kCellsPerWindow;
@@ -150,29 +176,95 @@ class ChainTracker::Implementation {
     return std::max(1, static_cast<int>(std::lround(std::max(fine, affordable))));
   }
 
-  CandidateGrid coarseGrid() const {
-    std::vector<cv::Point2d> centers;
-    for (const PartState& part : state_.parts) centers.push_back(part.position);
-    const double side = state_.parts.front().side;
+  /// Around where the nodes were last believed to be.
+  Search coarseSearch(const cv::Mat& image, const std::vector<SegmentPose>& previous) {
+    std::vector<std::vector<cv::Point2d>> centers;
+    for (size_t m = 0; m < segments(); ++m) centers.push_back(nodePositions(m));
     const double radius = searchRadius();
-    return makeCandidateGrid(centers, side, coarseStep(side, radius), radius);
+    const int step = coarseStep(smallestSide(previous), radius);
+    Search search = candidatesAround(image, centers, previous, step, radius);
+    for (size_t m = 0; m < segments(); ++m) {
+      const SegmentModel& model = model_.segments[m];
+      search.poses.push_back({previous[m], model.orientation_hypotheses, model.orientation_step,
+                              model.scale_hypotheses, model.scale_step});
+    }
+    return search;
   }
 
-  void computeCosts(const cv::Mat& image, const CandidateGrid& grid) {
-    computePartCosts(image, appearance_.palette, appearance_.parts, grid, model_.appearance.weight,
-                     costs_, cost_workspace_);
+  /// Of the segment's joints and parts in the last state. Both segments at a joint say the same.
+  std::vector<cv::Point2d> nodePositions(size_t m) const {
+    const SegmentLayout& segment = layout_.segments[m];
+    const SegmentState& state = state_.segments[m];
+    const auto first = state_.parts.begin() + state.first_part;
+    std::vector<cv::Point2d> positions;
+    if (segment.entry) positions.push_back(jointPosition(m - 1));
+    for (auto part = first; part != first + state.part_count; ++part) {
+      positions.push_back(part->position);
+    }
+    if (segment.exit) positions.push_back(jointPosition(m));
+    return positions;
   }
 
-  PoseGrid coarsePoses(const SegmentPose& previous) const {
-    const SegmentModel& model = segmentModel();
-    return {previous, model.orientation_hypotheses, model.orientation_step, model.scale_hypotheses,
-            model.scale_step};
+  cv::Point2d jointPosition(size_t m) const {
+    return 0.5 * (state_.segments[m].image_from_segment.apply(*layout_.segments[m].exit) +
+                  state_.segments[m + 1].image_from_segment.apply(*layout_.segments[m + 1].entry));
+  }
+
+  /// `centers`: of the nodes of each segment.
+  Search candidatesAround(const cv::Mat& image,
+                          const std::vector<std::vector<cv::Point2d>>& centers,
+                          const std::vector<SegmentPose>& poses, int step, double radius) {
+    Search search;
+    size_t first_part = 0;
+    for (size_t m = 0; m < segments(); ++m) {
+      const SegmentLayout& segment = layout_.segments[m];
+      const auto first = centers[m].begin() + (segment.entry ? 1 : 0);
+      const std::vector<cv::Point2d> parts(first, first + static_cast<int>(segment.parts.size()));
+      search.grids.push_back(makeCandidateGrid(parts, sideOf(m, poses[m].scale), step, radius));
+      search.candidates.push_back(candidatesOf(segment, search.grids[m], centers[m].back()));
+      if (m > 0) search.candidates[m].origins.front() = search.candidates[m - 1].origins.back();
+      computeCosts(image, m, first_part, search);
+      first_part += segment.parts.size();
+    }
+    return search;
+  }
+
+  /// The costs of the parts' states are still to be computed; a joint at the end lies on the
+  /// lattice of its segment.
+  static SegmentCandidates candidatesOf(const SegmentLayout& segment, const CandidateGrid& grid,
+                                        const cv::Point2d& end) {
+    SegmentCandidates candidates;
+    candidates.step = grid.lattice.step;
+    candidates.states = grid.states;
+    if (segment.entry) candidates.origins.emplace_back();
+    for (size_t k = 0; k < segment.parts.size(); ++k) {
+      candidates.origins.push_back(grid.positionOf(k, {0.0, 0.0}));
+    }
+    if (segment.exit) candidates.origins.push_back(grid.originAround(end));
+    return candidates;
+  }
+
+  void computeCosts(const cv::Mat& image, size_t m, size_t first_part, Search& search) {
+    const SegmentLayout& segment = layout_.segments[m];
+    const auto first = appearance_.parts.begin() + static_cast<std::ptrdiff_t>(first_part);
+    const std::vector<RootHistogram> parts(
+        first, first + static_cast<std::ptrdiff_t>(segment.parts.size()));
+    computePartCosts(image, appearance_.palette, parts, search.grids[m], model_.appearance.weight,
+                     search.candidates[m].costs, cost_workspace_);
+    std::vector<cv::Mat1f>& costs = search.candidates[m].costs;
+    const cv::Mat1f nothing(search.grids[m].states, 0.0F);
+    if (segment.entry) costs.insert(costs.begin(), nothing);
+    if (segment.exit) costs.push_back(nothing);
+  }
+
+  ChainMatch matched(const Search& search, const std::vector<SegmentPose>& previous) {
+    return matchChain({layout_.segments, model_, previous, search.poses, search.candidates},
+                      solver_workspace_);
   }
 
   /// Half the coarse steps around the best coarse pose. Where the coarse search has a single
   /// hypothesis, the fit alone turns or rescales the segment, by up to the coarse step.
-  PoseGrid finePoses(const SegmentPose& coarse) const {
-    const SegmentModel& model = segmentModel();
+  static PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
     const auto fineStep = [](int hypotheses, double step) {
       return hypotheses > 1 ? 0.5 * step : 2.0 * step;
     };
@@ -182,31 +274,43 @@ class ChainTracker::Implementation {
             fineStep(model.scale_hypotheses, model.scale_step)};
   }
 
-  /// Candidates up to a coarse step around the coarse match.
-  CandidateGrid fineGrid(const CandidateGrid& coarse, const PoseMatch& match,
-                         const SegmentPose& pose) const {
-    std::vector<cv::Point2d> centers;
-    for (size_t k = 0; k < match.states.size(); ++k) {
-      centers.push_back(coarse.positionOf(k, match.states[k]));
+  static std::vector<SegmentPose> interpolatedPoses(const Search& search, const ChainMatch& match) {
+    std::vector<SegmentPose> poses;
+    for (size_t m = 0; m < search.poses.size(); ++m) {
+      poses.push_back(interpolatePose(search.poses[m], match.segments[m].energies));
     }
-    const int step = (coarse.lattice.step + kRefinedSteps - 1) / kRefinedSteps;
-    const double side = segment().parts.front().side * pose.scale;
-    const double reach = std::max(kLeastReach, coarse.lattice.step + step);
-    return makeCandidateGrid(centers, side, step, reach);
+    return poses;
   }
 
-  Refinement refine(const cv::Mat& image, const CandidateGrid& coarse, const SegmentPose& previous,
-                    const PoseMatch& match) {
+  /// Candidates up to a coarse step around the coarse match.
+  Search fineSearch(const cv::Mat& image, const Search& coarse, const ChainMatch& match) {
+    const std::vector<SegmentPose> poses = interpolatedPoses(coarse, match);
+    std::vector<std::vector<cv::Point2d>> centers(segments());
+    for (size_t m = 0; m < segments(); ++m) {
+      const std::vector<cv::Point>& states = match.segments[m].states;
+      for (size_t k = 0; k < states.size(); ++k) {
+        centers[m].push_back(coarse.candidates[m].positionOf(k, cv::Point2d(states[k])));
+      }
+    }
+    const int coarse_step = coarse.candidates.front().step;
+    const int step = (coarse_step + kRefinedSteps - 1) / kRefinedSteps;
+    Search search =
+        candidatesAround(image, centers, poses, step, std::max(kLeastReach, coarse_step + step));
+    for (size_t m = 0; m < segments(); ++m) {
+      search.poses.push_back(finePoses(model_.segments[m], poses[m]));
+    }
+    return search;
+  }
+
+  Refinement refine(const cv::Mat& image, const Search& coarse,
+                    const std::vector<SegmentPose>& previous, const ChainMatch& match) {
     if (!match.found()) return {};
-    const SegmentPose coarse_pose = interpolatePose(coarsePoses(previous), match);
-    const CandidateGrid fine = fineGrid(coarse, match, coarse_pose);
-    computeCosts(image, fine);
-    const PoseGrid poses = finePoses(coarse_pose);
-    const PoseMatch refined =
-        searchPose(segment(), segmentModel(), previous, poses, fine, costs_, solver_workspace_);
+    const Search fine = fineSearch(image, coarse, match);
+    const ChainMatch refined = matched(fine, previous);
     if (!refined.found()) return {};
-    const SegmentPose pose = interpolatePose(poses, refined);
-    return {pose, refined.energy(), refineChain(segment(), pose, fine, costs_, solver_workspace_)};
+    const std::vector<SegmentPose> poses = interpolatedPoses(fine, refined);
+    return {poses, refined.energy,
+            refineChain(layout_.segments, poses, fine.candidates, solver_workspace_)};
   }
 
   /// The refined match becomes the state if it is good enough; otherwise the object is LOST and
@@ -229,9 +333,8 @@ class ChainTracker::Implementation {
     }
     frames_lost_ = 0;
     found.energy = refinement.energy;
-    found.segments.front().confidence = found.confidence;
-    found.segments.front().image_from_segment = fitPose(refinement.pose, found.parts);
-    carryShape(found);
+    for (size_t m = 0; m < segments(); ++m) fitSegment(m, refinement.poses[m], found);
+    shape_.carry(found);
     state_ = std::move(found);
   }
 
@@ -246,45 +349,36 @@ class ChainTracker::Implementation {
 
   /// Least squares over the parts, within the resolution of the poses searched: beyond it, the
   /// energy knows better than the parts, which lean inwards wherever the object is uniform.
-  Similarity fitPose(const SegmentPose& searched, const std::vector<PartState>& parts) const {
+  void fitSegment(size_t m, const SegmentPose& searched, ChainState& state) const {
+    SegmentState& segment = state.segments[m];
     std::vector<cv::Point2d> reference;
     std::vector<cv::Point2d> found;
     std::vector<double> weights;
-    for (size_t k = 0; k < parts.size(); ++k) {
-      reference.push_back(segment().parts[k].position);
-      found.push_back(parts[k].position);
-      weights.push_back(parts[k].confidence + kSmallestWeight);
+    for (size_t k = 0; k < layout_.segments[m].parts.size(); ++k) {
+      const PartState& part = state.parts[static_cast<size_t>(segment.first_part) + k];
+      reference.push_back(layout_.segments[m].parts[k].position);
+      found.push_back(part.position);
+      weights.push_back(part.confidence + kSmallestWeight);
     }
     const Similarity fit = fitSimilarity(reference, found, weights);
-    const PoseGrid poses = finePoses(searched);
+    const PoseGrid poses = finePoses(model_.segments[m], searched);
     const double angle = clampedTurn(searched.orientation, fit.angle, 0.5 * poses.orientation_step);
     const double scale = clampedScale(searched.scale, fit.scale, 0.5 * poses.scale_step);
-    return {angle, scale, fitTranslation(reference, found, weights, angle, scale)};
-  }
-
-  /// All that follows from the parts' positions and the segment's pose.
-  void carryShape(ChainState& state) const {
-    const SegmentState& segment_state = state.segments.front();
-    const std::vector<double> orientations =
-        partOrientations(segment(), segment_state, state.parts);
-    for (size_t k = 0; k < state.parts.size(); ++k) {
-      state.parts[k].orientation = orientations[k];
-      state.parts[k].side = segment().parts[k].side * segment_state.image_from_segment.scale;
-    }
-    state.points = shape_.points(segment_state, state.parts);
-    state.outline = shape_.outline(segment_state);
-    state.box = shape_.box(segment_state);
+    segment.image_from_segment = {angle, scale,
+                                  fitTranslation(reference, found, weights, angle, scale)};
+    segment.confidence =
+        std::accumulate(weights.begin(), weights.end(), 0.0) / static_cast<double>(weights.size()) -
+        kSmallestWeight;
   }
 
   ChainModel model_;
   ChainLayout layout_;
-  CarriedShape shape_;
+  ObjectShape shape_;
   ObjectAppearance appearance_;
   cv::Size image_size_;
   int image_type_;
   ChainState state_;
   int frames_lost_ = 0;
-  std::vector<cv::Mat1f> costs_;
   PartCostsWorkspace cost_workspace_;
   ChainSolverWorkspace solver_workspace_;
 };

@@ -35,12 +35,13 @@ cv::Rect2d cutOffBounds(const EdgePotential& potential) {
 }
 
 /// For springs so stiff that the lattice misses their cut-off.
-StencilOffset cheapestOffset(const EdgePotential& potential, int step) {
+StencilOffset cheapestOffset(const EdgePotential& potential, int step, const cv::Point2d& shift) {
   const int reach = static_cast<int>(std::ceil(potential.length / step)) + 1;
   StencilOffset cheapest{0, 0, std::numeric_limits<float>::infinity()};
   for (int rows = -reach; rows <= reach; ++rows) {
     for (int columns = -reach; columns <= reach; ++columns) {
-      const auto cost = static_cast<float>(potential.at(cv::Point2d(columns * step, rows * step)));
+      const auto cost =
+          static_cast<float>(potential.at(cv::Point2d(columns * step, rows * step) + shift));
       if (cost < cheapest.cost) cheapest = {columns, rows, cost};
     }
   }
@@ -63,15 +64,15 @@ EdgePotential onLattice(EdgePotential potential, double step) {
   return potential;
 }
 
-EdgeStencil sampleEdge(const EdgePotential& potential, int step) {
-  const cv::Rect2d bounds = cutOffBounds(potential);
+EdgeStencil sampleEdge(const EdgePotential& potential, int step, const cv::Point2d& shift) {
+  const cv::Rect2d bounds = cutOffBounds(potential) - shift;
   // One step more than the bounds, which are rounded; the loop looks at each offset exactly.
   const auto first = [&](double low) { return static_cast<int>(std::floor(low / step)); };
   const auto last = [&](double high) { return static_cast<int>(std::ceil(high / step)); };
   EdgeStencil stencil;
   for (int rows = first(bounds.y); rows <= last(bounds.br().y); ++rows) {
     for (int columns = first(bounds.x); columns <= last(bounds.br().x); ++columns) {
-      const cv::Point2d edge(columns * step, rows * step);
+      const cv::Point2d edge = cv::Point2d(columns * step, rows * step) + shift;
       const double stretch = std::abs(cv::norm(edge) - potential.length);
       if (stretch > kCutOffSigmas * potential.length_sigma) continue;
       const double turn = std::abs(wrapAngle(directionOf(edge) - potential.direction));
@@ -79,7 +80,7 @@ EdgeStencil sampleEdge(const EdgePotential& potential, int step) {
       stencil.push_back({columns, rows, static_cast<float>(potential.at(edge))});
     }
   }
-  if (stencil.empty()) stencil.push_back(cheapestOffset(potential, step));
+  if (stencil.empty()) stencil.push_back(cheapestOffset(potential, step, shift));
   return stencil;
 }
 

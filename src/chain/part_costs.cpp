@@ -40,6 +40,14 @@ void computePartCost(const std::vector<cv::Mat1f>& roots, const RootHistogram& p
 
 }  // namespace
 
+cv::Point2d CandidateGrid::originAround(const cv::Point2d& center) const {
+  const cv::Point2d first = lattice.centerOf(0, 0);
+  const double step = lattice.step;
+  return first + cv::Point2d(std::round((center.x - first.x) / step) - states.width / 2,
+                             std::round((center.y - first.y) / step) - states.height / 2) *
+                     step;
+}
+
 CandidateGrid makeCandidateGrid(const std::vector<cv::Point2d>& centers, double side, int step,
                                 double radius) {
   const int window_cells = std::max(1, static_cast<int>(std::lround(side / step)));

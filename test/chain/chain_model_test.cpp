@@ -143,14 +143,51 @@ TEST(FaultsOf, namesMustNotBeEmpty) {
   EXPECT_EQ("", omissionsOf(faults[1], {"segments[0]/name", "empty"}));
 }
 
-TEST(FaultsOf, anObjectIsOneSegment) {
+TEST(FaultsOf, anObjectIsAFewSegments) {
   ChainModel model;
   model.segments.clear();
   ASSERT_EQ(1U, faultsOf(model).size());
-  EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"segments", "0", "exactly 1"}));
-  model.segments.resize(2);
+  EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"segments", "0", "1 to 32"}));
+  model.segments.resize(32);
+  EXPECT_TRUE(faultsOf(model).empty());
+  model.segments.resize(33);
   ASSERT_EQ(1U, faultsOf(model).size());
-  EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"segments", "2", "exactly 1"}));
+  EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"segments", "33", "1 to 32"}));
+}
+
+TEST(FaultsOf, thereIsAJointBetweenAnyTwoSegmentsOrNoneIsSaid) {
+  ChainModel model;
+  model.segments.resize(3);
+  EXPECT_TRUE(faultsOf(model).empty());
+  model.joints.resize(2);
+  EXPECT_TRUE(faultsOf(model).empty());
+  model.joints.resize(3);
+  ASSERT_EQ(1U, faultsOf(model).size());
+  EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"joints", "3", "one fewer", "2"}));
+}
+
+TEST(FaultsOf, jointsHaveOrderedLimits) {
+  ChainModel model;
+  model.segments.resize(2);
+  model.joints = {{-0.5, 2.0}};
+  EXPECT_TRUE(faultsOf(model).empty());
+  model.joints = {{0.5, 0.2}};
+  ASSERT_EQ(1U, faultsOf(model).size());
+  EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"joints[0]/max_angle", "0.2", "[0.5, "}));
+  model.joints = {{-4.0, 4.0}};
+  ASSERT_EQ(2U, faultsOf(model).size());
+  EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"joints[0]/min_angle", "-4"}));
+  EXPECT_EQ("", omissionsOf(faultsOf(model)[1], {"joints[0]/max_angle", "4"}));
+}
+
+TEST(FaultsOf, onlyLinesCanBeJoined) {
+  ChainModel model;
+  model.segments.resize(2);
+  model.segments[1].layout = Layout::kDeformable;
+  EXPECT_TRUE(faultsOf(model).empty());
+  model.segments[1].layout = Layout::kPlanar;
+  ASSERT_EQ(1U, faultsOf(model).size());
+  EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"segments[1]/layout", "planar", "elongated"}));
 }
 
 TEST(FaultsOf, foundMustNotBeBelowLost) {

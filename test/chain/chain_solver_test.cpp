@@ -74,7 +74,8 @@ TEST(ChainSolver, findsTheBestOfAllChains) {
         continue;
       }
       ++feasible;
-      const std::vector<cv::Point> states = traceBack(problem.edges, workspace);
+      const std::vector<cv::Point> states =
+          traceBack(problem.edges, cheapestState(workspace.forward.back()), workspace);
       ASSERT_EQ(size.parts, states.size());
       EXPECT_EQ(cost, brute_force::energyOf(problem.unary, edge, states));
     }
@@ -109,7 +110,8 @@ TEST(ChainSolver, everyMinMarginalsLeastCostIsTheChains) {
   ChainSolverWorkspace workspace;
   const double cost = forwardPass(problem.unary, problem.edges, workspace);
   ASSERT_TRUE(std::isfinite(cost));
-  const std::vector<cv::Point> states = traceBack(problem.edges, workspace);
+  const std::vector<cv::Point> states =
+      traceBack(problem.edges, cheapestState(workspace.forward.back()), workspace);
   std::vector<cv::Mat1f> marginals;
   minMarginals(problem.unary, problem.edges, marginals, workspace);
   for (size_t k = 0; k < marginals.size(); ++k) {
@@ -167,7 +169,8 @@ TEST(ChainSolver, springAtRestJoinsBothSpotsForNothing) {
   const TwoSpots spots(3);
   ChainSolverWorkspace workspace;
   EXPECT_EQ(0.0, forwardPass(spots.problem.unary, spots.problem.edges, workspace));
-  const std::vector<cv::Point> states = traceBack(spots.problem.edges, workspace);
+  const std::vector<cv::Point> states =
+      traceBack(spots.problem.edges, cheapestState(workspace.forward.back()), workspace);
   EXPECT_EQ(cv::Point(10, 10), states[0]);
   EXPECT_EQ(cv::Point(13, 14), states[1]);
 }
@@ -178,14 +181,18 @@ TEST(ChainSolver, spotIsLeftOnceStretchingCostsMore) {
   ChainSolverWorkspace workspace;
   const TwoSpots stretched(3 - 5);
   EXPECT_EQ(25.0, forwardPass(stretched.problem.unary, stretched.problem.edges, workspace));
-  EXPECT_EQ(cv::Point(10, 10), traceBack(stretched.problem.edges, workspace)[0]);
-  EXPECT_EQ(cv::Point(13, 14), traceBack(stretched.problem.edges, workspace)[1]);
+  EXPECT_EQ(cv::Point(10, 10), traceBack(stretched.problem.edges,
+                                         cheapestState(workspace.forward.back()), workspace)[0]);
+  EXPECT_EQ(cv::Point(13, 14), traceBack(stretched.problem.edges,
+                                         cheapestState(workspace.forward.back()), workspace)[1]);
 
   const TwoSpots torn(3 - 6);
   EXPECT_EQ(30.0, forwardPass(torn.problem.unary, torn.problem.edges, workspace));
   // Two chains cost 30; the one whose last part comes first in row-major order is taken.
-  EXPECT_EQ(cv::Point(10, 10), traceBack(torn.problem.edges, workspace)[0]);
-  EXPECT_EQ(cv::Point(7, 14), traceBack(torn.problem.edges, workspace)[1]);
+  EXPECT_EQ(cv::Point(10, 10),
+            traceBack(torn.problem.edges, cheapestState(workspace.forward.back()), workspace)[0]);
+  EXPECT_EQ(cv::Point(7, 14),
+            traceBack(torn.problem.edges, cheapestState(workspace.forward.back()), workspace)[1]);
 }
 
 TEST(ChainSolver, chainOfThreeShiftsAsAWhole) {
@@ -196,7 +203,8 @@ TEST(ChainSolver, chainOfThreeShiftsAsAWhole) {
   const EdgeStencil spring = {{4, 0, 1.0F}, {5, 0, 0.0F}, {6, 0, 1.0F}};
   ChainSolverWorkspace workspace;
   EXPECT_EQ(2.0, forwardPass(unary, {spring, spring}, workspace));
-  const std::vector<cv::Point> states = traceBack({spring, spring}, workspace);
+  const std::vector<cv::Point> states =
+      traceBack({spring, spring}, cheapestState(workspace.forward.back()), workspace);
   EXPECT_EQ((std::vector<cv::Point>{{12, 0}, {16, 0}, {22, 0}}), states);
 }
 
@@ -205,7 +213,8 @@ TEST(ChainSolver, tiesGoToTheFirstStateOfTheLastPartThenToTheFirstOffset) {
   const EdgeStencil edge = {{-1, 0, 0.5F}, {0, -2, 0.5F}, {1, 0, 0.5F}};
   ChainSolverWorkspace workspace;
   EXPECT_EQ(4.0, forwardPass(unary, {edge, edge}, workspace));
-  const std::vector<cv::Point> states = traceBack({edge, edge}, workspace);
+  const std::vector<cv::Point> states =
+      traceBack({edge, edge}, cheapestState(workspace.forward.back()), workspace);
   EXPECT_EQ((std::vector<cv::Point>{{2, 0}, {1, 0}, {0, 0}}), states);
 }
 

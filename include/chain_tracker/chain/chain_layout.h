@@ -3,6 +3,7 @@
 /// and 3.4.1).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct PartLayout {
   double side = 0.0;     ///< of the window at scale 1 [px]
 };
 
-/// Edge from a part to the next one: the thesis's distance d and angular displacement phi.
+/// Edge from a node to the next one: the thesis's distance d and angular displacement phi.
 struct EdgeLayout {
   double length = 0.0;         ///< at scale 1 [px]
   double direction = 0.0;      ///< against the segment's orientation [rad]
@@ -26,15 +27,22 @@ struct EdgeLayout {
   double bend_sigma = 0.0;     ///< of the direction [rad]
 };
 
+/// The nodes of a segment's chain are the joint where it begins, its parts, and the joint where it
+/// ends; the first and the last segment have no joint at their free ends.
 struct SegmentLayout {
   std::string name;
   Layout layout = Layout::kElongated;
   Similarity image_from_segment;  ///< in the first frame; its scale is 1
   std::vector<PartLayout> parts;
-  std::vector<EdgeLayout> edges;     ///< one fewer than parts
+  std::optional<cv::Point2d> entry;  ///< joint with the segment before, in the segment's frame
+  std::optional<cv::Point2d> exit;   ///< joint with the segment behind, in the segment's frame
+  std::vector<EdgeLayout> edges;     ///< between neighbouring nodes: one fewer than nodes
   std::vector<cv::Point2d> points;   ///< those given, in the segment's frame
   std::vector<cv::Point2d> corners;  ///< of the initial box, in the segment's frame
 };
+
+/// Positions of all nodes, in the segment's frame.
+std::vector<cv::Point2d> nodesOf(const SegmentLayout& segment);
 
 /// The region that the object covers in the first frame [px].
 struct Silhouette {
@@ -47,6 +55,8 @@ struct ChainLayout {
   Silhouette silhouette;
 };
 
+/// A chain of several segments takes the polyline of its joints: one point more than segments, from
+/// the free end of the first to that of the last.
 /// Throws std::invalid_argument if the layout cannot take that many points or if points are not
 /// finite, coincide or span no area, naming them.
 ChainLayout layOut(const ChainModel& model, const std::vector<cv::Point2d>& points);

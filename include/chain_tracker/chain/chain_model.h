@@ -8,10 +8,13 @@
 
 namespace chain_tracker {
 
+/// A half turn to either side [rad]: a joint with these limits has none.
+constexpr double kFreeJoint = 3.14159265358979323846;
+
 /// How the parts of a segment are laid out over the shape that initialises it.
 enum class Layout {
   kElongated,   ///< square cells over a long rectangle: its two ends and `aspect`, or four corners
-  kPlanar,      ///< square cells over a rectangle given by its four corners
+  kPlanar,      ///< square cells over a rectangle given by its four corners; not in a joined chain
   kDeformable,  ///< equal steps along a polyline
 };
 
@@ -32,6 +35,13 @@ struct SegmentModel {
   double scale_sigma = 0.03;       ///< of the change of log scale between two frames
 };
 
+/// The hinge between a segment and the next one (thesis ch. 3.2.2). Its angle is the orientation of
+/// the next segment less that of this one: 0 where they continue straight on.
+struct JointModel {
+  double min_angle = -kFreeJoint;  ///< [rad]
+  double max_angle = kFreeJoint;   ///< [rad]; free unless less than a half turn to both sides
+};
+
 /// What the colour channels learn in the first frame (thesis ch. 3.2.1).
 struct AppearanceModel {
   int palette_colors = 24;        ///< colours learned from the object and the ring around it
@@ -48,9 +58,11 @@ struct SearchModel {
   double occluded_below = 0.25;  ///< confidence under which a part counts as hidden
 };
 
+/// Several segments are joined end to end at the vertices of the polyline that initialises them.
 struct ChainModel {
   std::string name = "bottle";
   std::vector<SegmentModel> segments = {SegmentModel()};
+  std::vector<JointModel> joints;  ///< one fewer than segments, or empty: all free
   AppearanceModel appearance;
   SearchModel search;
 };

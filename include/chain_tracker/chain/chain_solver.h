@@ -29,9 +29,12 @@ struct ChainSolverWorkspace {
 double forwardPass(const std::vector<cv::Mat1f>& unary, const std::vector<EdgeStencil>& edges,
                    ChainSolverWorkspace& workspace);
 
-/// The best chain's states (x column, y row), from workspace.forward as forwardPass() left it.
-/// The best cost must be finite.
-std::vector<cv::Point> traceBack(const std::vector<EdgeStencil>& edges,
+/// The state of least cost; the first one in row-major order among equals.
+cv::Point cheapestState(const cv::Mat1f& map);
+
+/// States (x column, y row) of the best chain whose last part is in state `end`, from
+/// workspace.forward as forwardPass() left it. The cost of that state must be finite.
+std::vector<cv::Point> traceBack(const std::vector<EdgeStencil>& edges, const cv::Point& end,
                                  const ChainSolverWorkspace& workspace);
 
 /// marginals[k](q): the cost of the best chain that has part k in state q. Needs

@@ -38,9 +38,10 @@ struct StencilOffset {
 
 using EdgeStencil = std::vector<StencilOffset>;
 
-/// The edges within three standard deviations whose vector is a whole number of steps, and their
-/// costs; at least the cheapest one. O(offsets).
-EdgeStencil sampleEdge(const EdgePotential& potential, int step);
+/// The edges within three standard deviations whose vector is a whole number of steps plus `shift`
+/// [px], and their costs; at least the cheapest one. `shift` is what separates the lattices of the
+/// two parts, less than a step. O(offsets).
+EdgeStencil sampleEdge(const EdgePotential& potential, int step, const cv::Point2d& shift = {});
 
 /// The same offsets counted between two parts' states when the second part's state (0, 0) lies
 /// `origin` steps from the first part's. Offsets of more than `reach` columns or rows join no two

@@ -25,6 +25,10 @@ struct CandidateGrid {
   cv::Point2d positionOf(size_t part, const cv::Point2d& state) const {
     return lattice.centerOf(corners[part].x + state.x, corners[part].y + state.y);
   }
+
+  /// Position of state (0, 0) of a node that has no window, whose middle state lies nearest to
+  /// `center` on the lattice [px].
+  cv::Point2d originAround(const cv::Point2d& center) const;
 };
 
 /// Grid whose middle states lie nearest to `centers`, reaching at least `radius` [px] around them.

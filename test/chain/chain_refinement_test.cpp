@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/chain/chain_refinement.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,77 +8,23 @@
 
 #include <gtest/gtest.h>
 
-#include "chain_tracker/chain/pose_search.h"
+#include "support/lattice_candidates.h"
 
 namespace chain_tracker {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-PoseMatch matchOf(const cv::Mat1d& energies, int row, int column) {
-  PoseMatch match;
-  match.energies = energies;
-  match.row = row;
-  match.column = column;
-  return match;
-}
-
-cv::Mat1d bowl(double row_minimum, double column_minimum) {
-  cv::Mat1d energies(5, 3);
-  for (int row = 0; row < 5; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      energies(row, column) = 7.0 + 2.0 * (row - row_minimum) * (row - row_minimum) +
-                              3.0 * (column - column_minimum) * (column - column_minimum);
-    }
-  }
-  return energies;
-}
-
-const PoseGrid kPoses{{0.5, 1.0}, 5, 0.1, 3, 0.2};
-
-void expectPose(double row, double column, const SegmentPose& pose) {
-  EXPECT_NEAR(kPoses.at(row, column).orientation, pose.orientation, 1e-9);
-  EXPECT_NEAR(kPoses.at(row, column).scale, pose.scale, 1e-9);
-}
-
-TEST(InterpolatePose, findsTheBottomOfABowl) {
-  for (double row : {1.6, 2.0, 2.3}) {
-    for (double column : {0.7, 1.0, 1.45}) {
-      const auto match = matchOf(bowl(row, column), int(std::lround(row)), 1);
-      expectPose(row, column, interpolatePose(kPoses, match));
-    }
-  }
-}
-
-TEST(InterpolatePose, staysAtTheBorderOfTheGrid) {
-  expectPose(0, 1.2, interpolatePose(kPoses, matchOf(bowl(-0.3, 1.2), 0, 1)));
-  expectPose(4, 1.2, interpolatePose(kPoses, matchOf(bowl(4.2, 1.2), 4, 1)));
-  expectPose(2.2, 0, interpolatePose(kPoses, matchOf(bowl(2.2, -0.4), 2, 0)));
-  expectPose(2.2, 2, interpolatePose(kPoses, matchOf(bowl(2.2, 2.4), 2, 2)));
-}
-
-TEST(InterpolatePose, staysNextToForbiddenPoses) {
-  cv::Mat1d energies = bowl(2.2, 1.2);
-  energies(3, 1) = kInfinity;
-  energies(2, 0) = kInfinity;
-  expectPose(2, 1, interpolatePose(kPoses, matchOf(energies, 2, 1)));
-}
-
-TEST(InterpolatePose, staysOnLevelGround) {
-  expectPose(2, 1, interpolatePose(kPoses, matchOf(cv::Mat1d(5, 3, 4.0), 2, 1)));
-}
-
-TEST(InterpolatePose, ofASinglePoseIsThatPose) {
-  const PoseGrid one{{0.5, 1.5}, 1, 0.1, 1, 0.2};
-  const SegmentPose pose = interpolatePose(one, matchOf(cv::Mat1d(1, 1, 3.0), 0, 0));
-  EXPECT_NEAR(0.5, pose.orientation, 1e-12);
-  EXPECT_NEAR(1.5, pose.scale, 1e-12);
-}
-
 SegmentLayout onePart() {
   SegmentLayout segment;
   segment.parts.push_back({{0.0, 0.0}, 10.0});
   return segment;
+}
+
+std::vector<RefinedPart> refineSegment(const SegmentLayout& segment, const CandidateGrid& grid,
+                                       const std::vector<cv::Mat1f>& costs) {
+  ChainSolverWorkspace workspace;
+  return refineChain({segment}, {{0.0, 1.0}}, {candidatesOn(grid, costs)}, workspace);
 }
 
 /// Costs of a Gaussian: 1/2 (p - mean)' covariance^-1 (p - mean).
@@ -107,8 +55,7 @@ TEST(RefineChain, findsPositionAndCovarianceOfAGaussian) {
       const cv::Point2d mean = grid.positionOf(0, {5.0, 3.0}) + step * offset;
       const cv::Matx22d covariance(9.0, 0.0, 0.0, 4.0);
       const std::vector<cv::Mat1f> costs = {gaussianCosts(grid, 0, mean, covariance)};
-      ChainSolverWorkspace workspace;
-      const auto parts = refineChain(onePart(), {0.0, 1.0}, grid, costs, workspace);
+      const auto parts = refineSegment(onePart(), grid, costs);
       ASSERT_EQ(1U, parts.size());
       EXPECT_LT(cv::norm(parts[0].position - mean), 1e-3 * step);
       EXPECT_EQ(costs[0](3, 5), parts[0].appearance);
@@ -122,8 +69,7 @@ TEST(RefineChain, findsPositionAndCovarianceOfATurnedGaussian) {
   const cv::Point2d mean = grid.positionOf(0, {5.0, 3.0}) + cv::Point2d(0.4, 0.4);
   const cv::Matx22d covariance(9.0, 7.0, 7.0, 9.0);
   const std::vector<cv::Mat1f> costs = {gaussianCosts(grid, 0, mean, covariance)};
-  ChainSolverWorkspace workspace;
-  const auto parts = refineChain(onePart(), {0.0, 1.0}, grid, costs, workspace);
+  const auto parts = refineSegment(onePart(), grid, costs);
   ASSERT_EQ(1U, parts.size());
   EXPECT_LT(cv::norm(parts[0].position - mean), 1e-3);
   expectCovariance(covariance, parts[0].covariance, 1e-3);
@@ -141,8 +87,7 @@ TEST(RefineChain, covarianceOfALopsidedBowlKeepsTheWidthsOfItsAxes) {
       costs(row, column) += 2.0F * static_cast<float>(std::max(0, product));
     }
   }
-  ChainSolverWorkspace workspace;
-  const auto parts = refineChain(onePart(), {0.0, 1.0}, grid, {costs}, workspace);
+  const auto parts = refineSegment(onePart(), grid, {costs});
   ASSERT_EQ(1U, parts.size());
   EXPECT_EQ(mean, parts[0].position);
   expectCovariance(cv::Matx22d(9.0, 0.0, 0.0, 4.0), parts[0].covariance, 1e-3);
@@ -152,8 +97,7 @@ TEST(RefineChain, covarianceIsUnknownAtTheBorderOfTheSearch) {
   const CandidateGrid grid = makeCandidateGrid({{60, 40}}, 11.0, 1, 4.0);
   const cv::Point2d mean = grid.positionOf(0, {0.0, 3.0});
   const std::vector<cv::Mat1f> costs = {gaussianCosts(grid, 0, mean, cv::Matx22d::eye())};
-  ChainSolverWorkspace workspace;
-  const auto parts = refineChain(onePart(), {0.0, 1.0}, grid, costs, workspace);
+  const auto parts = refineSegment(onePart(), grid, costs);
   ASSERT_EQ(1U, parts.size());
   EXPECT_EQ(mean, parts[0].position);
   for (double value : parts[0].covariance.val) EXPECT_TRUE(std::isnan(value));
@@ -161,9 +105,7 @@ TEST(RefineChain, covarianceIsUnknownAtTheBorderOfTheSearch) {
 
 TEST(RefineChain, covarianceIsUnknownOnLevelGround) {
   const CandidateGrid grid = makeCandidateGrid({{60, 40}}, 11.0, 1, 4.0);
-  ChainSolverWorkspace workspace;
-  const auto parts =
-      refineChain(onePart(), {0.0, 1.0}, grid, {cv::Mat1f(grid.states, 2.0F)}, workspace);
+  const auto parts = refineSegment(onePart(), grid, {cv::Mat1f(grid.states, 2.0F)});
   ASSERT_EQ(1U, parts.size());
   for (double value : parts[0].covariance.val) EXPECT_TRUE(std::isnan(value));
 }
@@ -171,8 +113,7 @@ TEST(RefineChain, covarianceIsUnknownOnLevelGround) {
 TEST(RefineChain, isEmptyWhereNoChainIsAllowed) {
   const CandidateGrid grid = makeCandidateGrid({{60, 40}}, 11.0, 1, 4.0);
   const cv::Mat1f forbidden(grid.states, static_cast<float>(kInfinity));
-  ChainSolverWorkspace workspace;
-  EXPECT_TRUE(refineChain(onePart(), {0.0, 1.0}, grid, {forbidden}, workspace).empty());
+  EXPECT_TRUE(refineSegment(onePart(), grid, {forbidden}).empty());
 }
 
 /// A part that is not seen itself is known as well as its neighbour and their spring are: variances
@@ -186,8 +127,7 @@ TEST(RefineChain, hiddenPartIsAsUncertainAsItsNeighbourAndTheSpring) {
   const cv::Point2d mean = grid.positionOf(0, cv::Point2d(middle));
   const std::vector<cv::Mat1f> costs = {gaussianCosts(grid, 0, mean, cv::Matx22d::eye() * 9.0),
                                         cv::Mat1f(grid.states, 5.0F)};
-  ChainSolverWorkspace workspace;
-  const auto parts = refineChain(segment, {0.0, 1.0}, grid, costs, workspace);
+  const auto parts = refineSegment(segment, grid, costs);
   ASSERT_EQ(2U, parts.size());
   EXPECT_LT(cv::norm(parts[0].position - mean), 1e-6);
   EXPECT_LT(cv::norm(parts[1].position - mean - cv::Point2d(30, 0)), 1e-6);

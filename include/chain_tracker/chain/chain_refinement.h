@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Sub-pixel positions of the parts and how sure they are, from min-marginals.
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "chain_tracker/chain/chain_matcher.h"
+
+namespace chain_tracker {
+
+struct RefinedPart {
+  cv::Point2d position;     ///< [px], between candidates
+  double appearance = 0.0;  ///< cost of the candidate chosen
+  cv::Matx22d covariance;   ///< [px^2], from the curvature of the min-marginal; NaN if unknown
+};
+
+/// The parts of all segments, in order, in the best chain under one pose a segment; empty if the
+/// springs allow none. O(parts x states x offsets of a stencil).
+std::vector<RefinedPart> refineChain(const std::vector<SegmentLayout>& segments,
+                                     const std::vector<SegmentPose>& poses,
+                                     const std::vector<SegmentCandidates>& candidates,
+                                     ChainSolverWorkspace& workspace);
+
+}  // namespace chain_tracker

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/chain/chain_matcher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "chain_tracker/image/pixel_geometry.h"
+
+namespace chain_tracker {
+namespace {
+
+/// Lattices are taken for aligned within this [px].
+constexpr double kSamePosition = 1e-6;
+
+/// The way from one node's state (0, 0) to the next one's: whole steps, and what is left [px].
+struct LatticeShift {
+  cv::Point steps;
+  cv::Point2d rest;
+};
+
+LatticeShift shiftBetween(const SegmentCandidates& candidates, size_t k) {
+  const double step = candidates.step;
+  const cv::Point2d difference = candidates.origins[k + 1] - candidates.origins[k];
+  LatticeShift shift;
+  shift.steps = {cvRound(difference.x / step), cvRound(difference.y / step)};
+  shift.rest = difference - cv::Point2d(shift.steps) * step;
+  if (cv::norm(shift.rest) < kSamePosition) shift.rest = {};
+  return shift;
+}
+
+EdgeStencil sampleSpring(const EdgeLayout& edge, const SegmentPose& pose, int step,
+                         const cv::Point2d& shift) {
+  const double length = pose.scale * edge.length;
+  const EdgePotential potential{length, pose.orientation + edge.direction,
+                                edge.stretch_sigma * length, edge.bend_sigma};
+  return sampleEdge(onLattice(potential, step), step, shift);
+}
+
+bool areAlike(const EdgeLayout& a, const EdgeLayout& b) {
+  return std::abs(a.length - b.length) < 1e-6 &&
+         std::abs(wrapAngle(a.direction - b.direction)) < 1e-6 &&
+         a.stretch_sigma == b.stretch_sigma && a.bend_sigma == b.bend_sigma;
+}
+
+/// least(q) = min(least(q), other(q))
+void lower(cv::Mat1f& least, const cv::Mat1f& other) {
+  std::transform(least.begin(), least.end(), other.begin(), least.begin(),
+                 [](float a, float b) { return std::min(a, b); });
+}
+
+/// [segment][pose]: a map over the states of a joint, or of the last node.
+using PoseMaps = std::vector<std::vector<cv::Mat1f>>;
+
+double leastOf(const cv::Mat1f& map) { return *std::min_element(map.begin(), map.end()); }
+
+cv::Mat1f sumOf(const cv::Mat1f& a, const cv::Mat1f& b) {
+  cv::Mat1f sum;
+  cv::add(a, b, sum);
+  return sum;
+}
+
+cv::Mat1f raised(const cv::Mat1f& map, float cost) {
+  cv::Mat1f raised_map;
+  cv::add(map, cost, raised_map);
+  return raised_map;
+}
+
+class Matcher {
+ public:
+  Matcher(const MatchingProblem& problem, ChainSolverWorkspace& workspace)
+      : problem_(problem), workspace_(workspace) {
+    for (size_t m = 0; m < segments(); ++m) {
+      edges_.emplace_back();
+      for (size_t h = 0; h < poses(m); ++h) {
+        edges_[m].push_back(sampleEdges(problem.segments[m], problem.candidates[m], pose(m, h)));
+      }
+    }
+  }
+
+  ChainMatch match() {
+    sweepForward();
+    sweepBackward();
+    ChainMatch match;
+    for (size_t m = 0; m < segments(); ++m) match.segments.push_back({0, energiesOf(m), {}});
+    cv::minMaxIdx(match.segments.back().energies, &match.energy);
+    if (std::isfinite(match.energy)) traceChain(match);
+    return match;
+  }
+
+ private:
+  size_t segments() const { return problem_.segments.size(); }
+  size_t poses(size_t m) const { return problem_.poses[m].size(); }
+  SegmentPose pose(size_t m, size_t h) const { return problem_.poses[m].at(h); }
+
+  float temporal(size_t m, size_t h) const {
+    return static_cast<float>(
+        temporalCost(problem_.model.segments[m], problem_.previous[m], pose(m, h)));
+  }
+
+  JointModel joint(size_t m) const {
+    return problem_.model.joints.empty() ? JointModel() : problem_.model.joints[m];
+  }
+
+  /// Cost of pose g of segment m with pose h of the next one.
+  float jointBetween(size_t m, size_t g, size_t h) const {
+    return static_cast<float>(jointCost(joint(m), pose(m, g), pose(m + 1, h)));
+  }
+
+  /// The node maps of a segment, its joints taking what the neighbours say.
+  std::vector<cv::Mat1f> costsWith(size_t m, const std::vector<cv::Mat1f>& before, size_t h) const {
+    std::vector<cv::Mat1f> costs = problem_.candidates[m].costs;
+    if (m > 0) costs.front() = before[h];
+    return costs;
+  }
+
+  /// ahead_[m][h]: least cost of segments 0..m that end in each state under pose h.
+  void sweepForward() {
+    for (size_t m = 0; m < segments(); ++m) {
+      if (m > 0) into_.push_back(mergeForward(m - 1));
+      ahead_.emplace_back();
+      for (size_t h = 0; h < poses(m); ++h) {
+        passForward(m, h);
+        ahead_[m].push_back(raised(workspace_.forward.back(), temporal(m, h)));
+      }
+    }
+  }
+
+  void passForward(size_t m, size_t h) {
+    const std::vector<cv::Mat1f> none;
+    forwardPass(costsWith(m, m > 0 ? into_[m - 1] : none, h), edges_[m][h], workspace_);
+  }
+
+  /// The message from segment m to each pose of the next one: the least over its own poses.
+  std::vector<cv::Mat1f> mergeForward(size_t m) const {
+    const auto cost = [&](size_t from, size_t to) { return jointBetween(m, from, to); };
+    return merge(ahead_[m], poses(m + 1), isFree(joint(m)), cost);
+  }
+
+  std::vector<cv::Mat1f> mergeBackward(size_t m) const {
+    const auto cost = [&](size_t from, size_t to) { return jointBetween(m, to, from); };
+    return merge(behind_[m + 1], poses(m), isFree(joint(m)), cost);
+  }
+
+  /// One message a receiving pose; a free joint sends the same one to all.
+  template <typename Cost>
+  static std::vector<cv::Mat1f> merge(const std::vector<cv::Mat1f>& maps, size_t receivers,
+                                      bool free, const Cost& cost) {
+    std::vector<cv::Mat1f> messages;
+    for (size_t to = 0; to < (free ? 1 : receivers); ++to) {
+      cv::Mat1f least = raised(maps.front(), free ? 0.0F : cost(0, to));
+      for (size_t from = 1; from < maps.size(); ++from) {
+        lower(least, free ? maps[from] : raised(maps[from], cost(from, to)));
+      }
+      messages.push_back(least);
+    }
+    messages.resize(receivers, messages.front());
+    return messages;
+  }
+
+  /// behind_[m][h]: least cost of segments m.. that begin in each state under pose h.
+  void sweepBackward() {
+    behind_.resize(segments());
+    from_.resize(segments());
+    for (size_t m = segments() - 1; m > 0; --m) {
+      for (size_t h = 0; h < poses(m); ++h) {
+        std::vector<cv::Mat1f> costs = problem_.candidates[m].costs;
+        if (m + 1 < segments()) costs.back() = from_[m][h];
+        std::reverse(costs.begin(), costs.end());
+        std::vector<EdgeStencil> edges;
+        for (auto edge = edges_[m][h].rbegin(); edge != edges_[m][h].rend(); ++edge) {
+          edges.push_back(reversed(*edge));
+        }
+        forwardPass(costs, edges, workspace_);
+        behind_[m].push_back(raised(workspace_.forward.back(), temporal(m, h)));
+      }
+      from_[m - 1] = mergeBackward(m - 1);
+    }
+  }
+
+  cv::Mat1d energiesOf(size_t m) const {
+    const PoseGrid& grid = problem_.poses[m];
+    cv::Mat1d energies(grid.orientations, grid.scales);
+    for (size_t h = 0; h < poses(m); ++h) {
+      const bool last = m + 1 == segments();
+      energies(static_cast<int>(h) / grid.scales, static_cast<int>(h) % grid.scales) =
+          last ? leastOf(ahead_[m][h]) : leastOf(sumOf(ahead_[m][h], from_[m][h]));
+    }
+    return energies;
+  }
+
+  /// From the last segment to the first: the pose that leads to where the next one begins.
+  void traceChain(ChainMatch& match) {
+    for (size_t m = segments(); m-- > 0;) {
+      const bool last = m + 1 == segments();
+      SegmentMatch& segment = match.segments[m];
+      segment.pose = last ? bestLast(segment.energies) : bestInto(m, match.segments[m + 1]);
+      passForward(m, segment.pose);
+      const cv::Point end =
+          last ? cheapestState(workspace_.forward.back()) : match.segments[m + 1].states.front();
+      segment.states = traceBack(edges_[m][segment.pose], end, workspace_);
+    }
+  }
+
+  static size_t bestLast(const cv::Mat1d& energies) {
+    return static_cast<size_t>(
+        std::distance(energies.begin(), std::min_element(energies.begin(), energies.end())));
+  }
+
+  size_t bestInto(size_t m, const SegmentMatch& next) const {
+    size_t best = 0;
+    float least = std::numeric_limits<float>::infinity();
+    for (size_t h = 0; h < poses(m); ++h) {
+      const float cost = ahead_[m][h](next.states.front()) + jointBetween(m, h, next.pose);
+      if (cost >= least) continue;
+      least = cost;
+      best = h;
+    }
+    return best;
+  }
+
+  const MatchingProblem& problem_;
+  ChainSolverWorkspace& workspace_;
+  std::vector<std::vector<std::vector<EdgeStencil>>> edges_;  // [segment][pose][edge]
+  PoseMaps ahead_;
+  PoseMaps behind_;
+  PoseMaps into_;  // messages over the joint before segment m + 1
+  PoseMaps from_;  // messages over the joint behind segment m
+};
+
+}  // namespace
+
+std::vector<EdgeStencil> sampleEdges(const SegmentLayout& segment,
+                                     const SegmentCandidates& candidates, const SegmentPose& pose) {
+  // A grid of cells has only three different edges, and sampling one costs more than its message.
+  std::vector<EdgeStencil> samples(segment.edges.size());
+  std::vector<cv::Point2d> rests(segment.edges.size());
+  std::vector<EdgeStencil> stencils;
+  for (size_t k = 0; k < segment.edges.size(); ++k) {
+    const LatticeShift shift = shiftBetween(candidates, k);
+    rests[k] = shift.rest;
+    size_t twin = 0;
+    while (!(areAlike(segment.edges[twin], segment.edges[k]) && rests[twin] == rests[k])) ++twin;
+    if (twin == k) samples[k] = sampleSpring(segment.edges[k], pose, candidates.step, shift.rest);
+    stencils.push_back(
+        betweenStates(samples[twin], shift.steps, candidates.states - cv::Size(1, 1)));
+  }
+  return stencils;
+}
+
+ChainMatch matchChain(const MatchingProblem& problem, ChainSolverWorkspace& workspace) {
+  return Matcher(problem, workspace).match();
+}
+
+}  // namespace chain_tracker

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The candidates of a segment without joints, as its grid says.
+#pragma once
+
+#include <vector>
+
+#include "chain_tracker/chain/chain_matcher.h"
+#include "chain_tracker/chain/part_costs.h"
+
+namespace chain_tracker {
+
+inline SegmentCandidates candidatesOn(const CandidateGrid& grid, std::vector<cv::Mat1f> costs) {
+  SegmentCandidates candidates{grid.lattice.step, grid.states, {}, std::move(costs)};
+  for (std::size_t k = 0; k < grid.corners.size(); ++k) {
+    candidates.origins.push_back(grid.positionOf(k, {0.0, 0.0}));
+  }
+  return candidates;
+}
+
+}  // namespace chain_tracker
