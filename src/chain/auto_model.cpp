@@ -4,12 +4,18 @@
 #include <cmath>
 #include <cstddef>
 
+#include "chain_tracker/image/pixel_geometry.h"
+
 namespace chain_tracker {
 namespace {
 
+constexpr double kRightAngleTolerance = 15.0 * CV_PI / 180.0;
+constexpr double kSharpTurn = 45.0 * CV_PI / 180.0;
+constexpr std::size_t kFewPoints = 5;
+
 bool isRectangle(const std::vector<cv::Point2d>& points) {
   if (points.size() != 4) return false;
-  const double largest_cosine = std::sin(15.0 * CV_PI / 180.0);
+  const double largest_cosine = std::sin(kRightAngleTolerance);
   for (std::size_t i = 0; i < 4; ++i) {
     const cv::Point2d before = points[i] - points[(i + 3) % 4];
     const cv::Point2d after = points[(i + 1) % 4] - points[i];
@@ -19,11 +25,21 @@ bool isRectangle(const std::vector<cv::Point2d>& points) {
   return true;
 }
 
+bool isSharpEverywhere(const std::vector<cv::Point2d>& points) {
+  for (std::size_t i = 2; i < points.size(); ++i) {
+    const double before = directionOf(points[i - 1] - points[i - 2]);
+    const double after = directionOf(points[i] - points[i - 1]);
+    if (std::abs(wrapAngle(after - before)) <= kSharpTurn) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string autoModelName(const std::vector<cv::Point2d>& points) {
   if (isRectangle(points)) return "box";
-  return points.size() == 2 ? "bottle" : "cable";
+  if (points.size() == 2) return "bottle";
+  return points.size() <= kFewPoints || isSharpEverywhere(points) ? "articulated" : "cable";
 }
 
 }  // namespace chain_tracker

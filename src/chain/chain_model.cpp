@@ -65,7 +65,11 @@ void checkJoints(const ChainModel& model, FaultList& faults) {
     faults.requireRange(prefix + "min_angle", joint.min_angle, -kFreeJoint, kFreeJoint);
     faults.requireRange(prefix + "max_angle", joint.max_angle, joint.min_angle, kFreeJoint);
   }
-  if (model.segments.size() < 2) return;
+  if (model.segment_per_edge && model.segments.size() != 1) {
+    faults.add("segments has " + std::to_string(model.segments.size()) +
+               " entries, must have 1 where segment_per_edge is true");
+  }
+  if (model.segments.size() < 2 && !model.segment_per_edge) return;
   for (size_t i = 0; i < model.segments.size(); ++i) {
     if (model.segments[i].layout != Layout::kPlanar) continue;
     faults.add("segments[" + std::to_string(i) +
@@ -94,6 +98,17 @@ void checkSearch(const SearchModel& search, FaultList& faults) {
 }
 
 }  // namespace
+
+ChainModel forPolyline(ChainModel model, size_t points) {
+  if (!model.segment_per_edge || points < 2) return model;
+  const SegmentModel segment = model.segments.front();
+  model.segments.assign(points - 1, segment);
+  for (size_t i = 0; i < model.segments.size(); ++i) {
+    model.segments[i].name += std::to_string(i + 1);
+  }
+  model.segment_per_edge = false;
+  return model;
+}
 
 std::vector<std::string> faultsOf(const ChainModel& model) {
   FaultList faults;

@@ -70,6 +70,7 @@ class Reader {
   }
 
   void read(int& value) const { value = as<int>("a whole number"); }
+  void read(bool& value) const { value = as<bool>("true or false"); }
   void read(double& value) const { value = as<double>("a number"); }
   void read(std::string& value) const { value = as<std::string>("text"); }
   void read(Layout& value) const {
@@ -196,6 +197,7 @@ ChainModel parseChainModel(const std::string& yaml, const std::string& source) {
   Reader(document, source, "", std::max(1, document.Mark().line + 1), &lines)
       .readMap({{"name", into(model.name)},
                 {"segments", [&](const Reader& r) { readSegments(r, model.segments); }},
+                {"segment_per_edge", into(model.segment_per_edge)},
                 {"joints", [&](const Reader& r) { readJoints(r, model.joints); }},
                 {"appearance", [&](const Reader& r) { readAppearance(r, model.appearance); }},
                 {"search", [&](const Reader& r) { readSearch(r, model.search); }}});

@@ -87,10 +87,10 @@ class ChainTracker::Implementation {
  public:
   Implementation(const ChainModel& model, const cv::Mat& image,
                  const std::vector<cv::Point2d>& points)
-      : model_(checked(model, image)),
-        layout_(checked(layOut(model, points), image.size())),
+      : model_(checked(model, image, points.size())),
+        layout_(checked(layOut(model_, points), image.size())),
         shape_(layout_.segments),
-        appearance_(learnAppearance(image, layout_, model.appearance)),
+        appearance_(learnAppearance(image, layout_, model_.appearance)),
         image_size_(image.size()),
         image_type_(image.type()),
         state_(initialState()) {}
@@ -116,10 +116,12 @@ class ChainTracker::Implementation {
   const ChainModel& model() const { return model_; }
 
  private:
-  static const ChainModel& checked(const ChainModel& model, const cv::Mat& image) {
+  static ChainModel checked(const ChainModel& model, const cv::Mat& image, size_t points) {
     requireModel(model);
     requireImage(image);
-    return model;
+    ChainModel expanded = forPolyline(model, points);
+    requireModel(expanded);
+    return expanded;
   }
 
   static ChainLayout checked(ChainLayout layout, const cv::Size& image_size) {

@@ -15,11 +15,22 @@ TEST(AutoModel, FourCornersAreABox) {
   EXPECT_EQ(autoModelName({{10, 10}, {50, 14}, {48, 90}, {9, 88}}), "box") << "drawn by hand";
 }
 
+TEST(AutoModel, FewPointsAreJoints) {
+  EXPECT_EQ(autoModelName({{10, 10}, {50, 30}, {90, 20}}), "articulated");
+  EXPECT_EQ(autoModelName({{10, 10}, {50, 12}, {90, 14}, {130, 10}}), "articulated")
+      << "nearly straight";
+  EXPECT_EQ(autoModelName({{10, 10}, {50, 10}, {10, 90}, {50, 90}}), "articulated") << "a Z";
+  EXPECT_EQ(autoModelName({{0, 0}, {40, 0}, {40, 40}, {0, 40}, {0, 5}}), "articulated");
+}
+
+TEST(AutoModel, SharpTurnsEverywhereAreJoints) {
+  EXPECT_EQ(autoModelName({{0, 0}, {20, 40}, {40, 0}, {60, 40}, {80, 0}, {100, 40}}),
+            "articulated");
+  EXPECT_EQ(autoModelName({{0, 0}, {20, 40}, {40, 0}, {60, 40}, {80, 0}, {90, -20}}), "cable");
+}
+
 TEST(AutoModel, AnyOtherPolylineIsACable) {
-  EXPECT_EQ(autoModelName({{10, 10}, {50, 30}, {90, 20}}), "cable");
-  EXPECT_EQ(autoModelName({{10, 10}, {50, 12}, {90, 14}, {130, 10}}), "cable") << "nearly straight";
-  EXPECT_EQ(autoModelName({{10, 10}, {50, 10}, {10, 90}, {50, 90}}), "cable") << "a Z";
-  EXPECT_EQ(autoModelName({{0, 0}, {40, 0}, {40, 40}, {0, 40}, {0, 5}}), "cable");
+  EXPECT_EQ(autoModelName({{0, 0}, {20, 5}, {40, 8}, {60, 6}, {80, 1}, {100, 0}}), "cable");
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ std::string parseRefusal(const std::string& yaml) {
 /// Every key, none with the value it has by default.
 const char kEveryKey[] = R"(
 name: hose
+segment_per_edge: false
 segments:
   - name: tube
     layout: deformable
@@ -48,6 +49,10 @@ segments:
     scale_hypotheses: 9
     scale_step: 0.04
     scale_sigma: 0.05
+  - name: nozzle
+joints:
+  - min_angle: -0.5
+    max_angle: 1.5
 appearance:
   palette_colors: 31
   ring: 0.75
@@ -77,6 +82,9 @@ ChainModel everyKeyModel() {
   segment.scale_hypotheses = 9;
   segment.scale_step = 0.04;
   segment.scale_sigma = 0.05;
+  model.segments.emplace_back();
+  model.segments[1].name = "nozzle";
+  model.joints = {{-0.5, 1.5}};
   model.appearance = {31, 0.75, 0.375, 5.5};
   model.search = {0.09, 0.125, 0.625, 0.3};
   return model;
@@ -89,7 +97,7 @@ TEST(ParseChainModel, readsEveryKey) {
 /// The refusal of an unknown key lists the known ones: none may be missing above.
 TEST(ParseChainModel, noKeyIsUntested) {
   const std::vector<std::string> places = {"zzz: 1", "segments: [{zzz: 1}]", "appearance: {zzz: 1}",
-                                           "search: {zzz: 1}"};
+                                           "search: {zzz: 1}", "joints: [{zzz: 1}]"};
   size_t keys = 0;
   for (const std::string& place : places) {
     std::string refusal = parseRefusal(place);
@@ -104,7 +112,7 @@ TEST(ParseChainModel, noKeyIsUntested) {
       ++keys;
     }
   }
-  EXPECT_EQ(25U, keys);
+  EXPECT_EQ(29U, keys);
 }
 
 TEST(ParseChainModel, keysLeftOutKeepTheirDefaults) {
@@ -165,8 +173,8 @@ std::vector<BadModel> badModels() {
       {"huge_count.yaml", 3, {"segments[0]/parts", "99999999999"}},
       {"duplicate_key.yaml", 6, {"segments[0]", "parts"}},
       {"duplicate_section.yaml", 6, {"search"}},
-      {"two_segments.yaml", 2, {"segments", "2", "exactly 1"}},
-      {"no_segments.yaml", 2, {"segments", "0", "exactly 1"}},
+      {"joints_without_segments.yaml", 3, {"joints", "2", "one fewer"}},
+      {"no_segments.yaml", 2, {"segments", "0", "1 to 32"}},
       {"segments_not_a_list.yaml", 2, {"segments", "must be a list"}},
       {"appearance_not_a_map.yaml", 2, {"appearance", "must be a map"}},
       {"crossed_thresholds.yaml", 4, {"search/found_above", "0.4", "search/lost_below", "0.5"}},
@@ -239,6 +247,21 @@ TEST(ShippedModels, cableBendsAndIsSearchedUnderOnePose) {
   segment.orientation_hypotheses = 1;
   segment.scale_hypotheses = 1;
   EXPECT_EQ("", differencesOf(expected, loadChainModel(kShippedModels + "/cable.yaml")));
+}
+
+TEST(ShippedModels, articulatedHasALinkForEveryEdge) {
+  ChainModel expected;
+  expected.name = "articulated";
+  expected.segment_per_edge = true;
+  expected.segments[0].name = "link";
+  expected.segments[0].parts = 6;
+  EXPECT_EQ("", differencesOf(expected, loadChainModel(kShippedModels + "/articulated.yaml")));
+}
+
+TEST(ParseChainModel, readsSegmentPerEdge) {
+  EXPECT_TRUE(parseChainModel("segment_per_edge: true", "t.yaml").segment_per_edge);
+  EXPECT_EQ("", omissionsOf(parseRefusal("segment_per_edge: 3"),
+                            {"text.yaml:1", "segment_per_edge", "'3'", "true or false"}));
 }
 
 }  // namespace

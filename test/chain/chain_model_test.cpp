@@ -180,6 +180,19 @@ TEST(FaultsOf, jointsHaveOrderedLimits) {
   EXPECT_EQ("", omissionsOf(faultsOf(model)[1], {"joints[0]/max_angle", "4"}));
 }
 
+TEST(FaultsOf, oneSegmentStandsForEveryEdge) {
+  ChainModel model;
+  model.segment_per_edge = true;
+  EXPECT_TRUE(faultsOf(model).empty());
+  model.segments.resize(2);
+  ASSERT_EQ(1U, faultsOf(model).size());
+  EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"segments", "2", "must have 1"}));
+  model.segments.resize(1);
+  model.segments[0].layout = Layout::kPlanar;
+  ASSERT_EQ(1U, faultsOf(model).size());
+  EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"segments[0]/layout", "planar"}));
+}
+
 TEST(FaultsOf, onlyLinesCanBeJoined) {
   ChainModel model;
   model.segments.resize(2);

@@ -63,6 +63,15 @@ std::string differencesOf(const ChainModel& expected, const ChainModel& actual) 
     const std::string prefix = "segments[" + std::to_string(i) + "]/";
     differences.compare(prefix, expected.segments[i], actual.segments[i]);
   }
+  differences.compare("segment_per_edge", expected.segment_per_edge, actual.segment_per_edge);
+  differences.compare("number of joints", expected.joints.size(), actual.joints.size());
+  for (size_t i = 0; i < std::min(expected.joints.size(), actual.joints.size()); ++i) {
+    const std::string prefix = "joints[" + std::to_string(i) + "]/";
+    differences.compare(prefix + "min_angle", expected.joints[i].min_angle,
+                        actual.joints[i].min_angle);
+    differences.compare(prefix + "max_angle", expected.joints[i].max_angle,
+                        actual.joints[i].max_angle);
+  }
   differences.compare(expected.appearance, actual.appearance);
   differences.compare(expected.search, actual.search);
   return differences.text();

@@ -9,8 +9,10 @@
 
 namespace chain_tracker {
 
-/// "box" for the four corners of a rectangle in order, "bottle" for two ends, "cable" for any other
-/// polyline. A quadrilateral passes for a rectangle if its corners are right to within 15 degrees.
+/// "box" for the four corners of a rectangle in order, "bottle" for two ends, "articulated" for a
+/// polyline whose points are joints, "cable" for any other. A quadrilateral passes for a rectangle
+/// if its corners are right to within 15 degrees. Points are joints if there are at most five, as
+/// nobody draws a curve with so few, or if the line turns by more than 45 degrees at each.
 std::string autoModelName(const std::vector<cv::Point2d>& points);
 
 }  // namespace chain_tracker

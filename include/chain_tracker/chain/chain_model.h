@@ -3,6 +3,7 @@
 /// first image. One model serves all objects; only these numbers differ.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -63,9 +64,15 @@ struct ChainModel {
   std::string name = "bottle";
   std::vector<SegmentModel> segments = {SegmentModel()};
   std::vector<JointModel> joints;  ///< one fewer than segments, or empty: all free
+  /// The one segment stands for every edge of the polyline given, however many there are.
+  bool segment_per_edge = false;
   AppearanceModel appearance;
   SearchModel search;
 };
+
+/// The model with a segment for every edge of a polyline of `points` points, named after the one
+/// segment and counted from 1, if it is one of `segment_per_edge`; any other model as it is.
+ChainModel forPolyline(ChainModel model, size_t points);
 
 /// Every fault of the model, one sentence each: it begins with the key, then its value and what is
 /// allowed; empty if the model can be used.
