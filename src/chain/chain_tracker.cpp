@@ -90,10 +90,12 @@ class ChainTracker::Implementation {
       : model_(checked(model, image, points.size())),
         layout_(checked(layOut(model_, points), image.size())),
         shape_(layout_.segments),
-        appearance_(learnAppearance(image, layout_, model_.appearance)),
+        appearance_(image, layout_, model_.appearance),
         image_size_(image.size()),
         image_type_(image.type()),
-        state_(initialState()) {}
+        state_(initialState()) {
+    for (const PartState& part : state_.parts) initial_orientations_.push_back(part.orientation);
+  }
 
   const ChainState& update(const cv::Mat& image) {
     requireSameKind(image, image_size_, image_type_);
@@ -248,15 +250,21 @@ class ChainTracker::Implementation {
 
   void computeCosts(const cv::Mat& image, size_t m, size_t first_part, Search& search) {
     const SegmentLayout& segment = layout_.segments[m];
-    const auto first = appearance_.parts.begin() + static_cast<std::ptrdiff_t>(first_part);
-    const std::vector<RootHistogram> parts(
-        first, first + static_cast<std::ptrdiff_t>(segment.parts.size()));
-    computePartCosts(image, appearance_.palette, parts, search.grids[m], model_.appearance.weight,
+    std::vector<RootHistogram> parts;
+    for (size_t k = 0; k < segment.parts.size(); ++k) {
+      parts.push_back(appearance_.part(first_part + k, turnOf(first_part + k)));
+    }
+    computePartCosts(image, appearance_.palette(), parts, search.grids[m], model_.appearance.weight,
                      search.candidates[m].costs, cost_workspace_);
     std::vector<cv::Mat1f>& costs = search.candidates[m].costs;
     const cv::Mat1f nothing(search.grids[m].states, 0.0F);
     if (segment.entry) costs.insert(costs.begin(), nothing);
     if (segment.exit) costs.push_back(nothing);
+  }
+
+  /// Of a part since the first frame, as last believed [rad].
+  double turnOf(size_t part) const {
+    return wrapAngle(state_.parts[part].orientation - initial_orientations_[part]);
   }
 
   ChainMatch matched(const Search& search, const std::vector<SegmentPose>& previous) {
@@ -380,6 +388,7 @@ class ChainTracker::Implementation {
   cv::Size image_size_;
   int image_type_;
   ChainState state_;
+  std::vector<double> initial_orientations_;  // of the parts
   int frames_lost_ = 0;
   PartCostsWorkspace cost_workspace_;
   ChainSolverWorkspace solver_workspace_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "support/map_difference.h"
 #include "support/random_inputs.h"
@@ -37,14 +38,14 @@ ChainLayout boxLayout(const ChainModel& model) {
 
 int entryAt(const ObjectAppearance& appearance, const cv::Mat& image, const cv::Point& pixel) {
   cv::Mat1b entry;
-  appearance.palette.classify(image, {pixel.x, pixel.y, 1, 1}, entry);
+  appearance.palette().classify(image, {pixel.x, pixel.y, 1, 1}, entry);
   return entry(0, 0);
 }
 
-TEST(LearnAppearance, tellsTheObjectsColorsFromTheRing) {
+TEST(ObjectAppearance, tellsTheObjectsColorsFromTheRing) {
   const cv::Mat image = redAndGreenBox();
   const ChainModel model = boxModel();
-  const ObjectAppearance appearance = learnAppearance(image, boxLayout(model), model.appearance);
+  const ObjectAppearance appearance(image, boxLayout(model), model.appearance);
   const int red = entryAt(appearance, image, {140, 120});
   const int green = entryAt(appearance, image, {180, 120});
   EXPECT_NE(ColorPalette::kOther, red);
@@ -53,51 +54,52 @@ TEST(LearnAppearance, tellsTheObjectsColorsFromTheRing) {
   EXPECT_EQ(ColorPalette::kOther, entryAt(appearance, image, {110, 80}));
 }
 
-TEST(LearnAppearance, ringIsAsWideAsTheModelSays) {
+TEST(ObjectAppearance, ringIsAsWideAsTheModelSays) {
   const cv::Mat image = redAndGreenBox();
   ChainModel model = boxModel();
   model.appearance.ring = 0.3;  // Ends in the blue, 15 of 30 pixels wide.
-  EXPECT_NE(ColorPalette::kOther,
-            entryAt(learnAppearance(image, boxLayout(model), model.appearance), image, {180, 120}));
+  EXPECT_NE(
+      ColorPalette::kOther,
+      entryAt(ObjectAppearance(image, boxLayout(model), model.appearance), image, {180, 120}));
   model.appearance.ring = 3.0;  // Reaches the green, which is most of it.
-  EXPECT_EQ(ColorPalette::kOther,
-            entryAt(learnAppearance(image, boxLayout(model), model.appearance), image, {180, 120}));
+  EXPECT_EQ(
+      ColorPalette::kOther,
+      entryAt(ObjectAppearance(image, boxLayout(model), model.appearance), image, {180, 120}));
 }
 
-TEST(LearnAppearance, keepsTheShareAndNumberOfColorsOfTheModel) {
+TEST(ObjectAppearance, keepsTheShareAndNumberOfColorsOfTheModel) {
   RandomInputs random(1);
   const cv::Mat image = random.noise({320, 240}, CV_8UC3);
   ChainModel model = boxModel();
   model.appearance.min_object_share = 0.0;
   model.appearance.palette_colors = 7;
-  EXPECT_EQ(8, learnAppearance(image, boxLayout(model), model.appearance).palette.size());
+  EXPECT_EQ(8, ObjectAppearance(image, boxLayout(model), model.appearance).palette().size());
   model.appearance.min_object_share = 0.5;
-  EXPECT_LT(learnAppearance(image, boxLayout(model), model.appearance).palette.size(), 8);
+  EXPECT_LT(ObjectAppearance(image, boxLayout(model), model.appearance).palette().size(), 8);
 }
 
-TEST(LearnAppearance, learnsEachPartWhereItLies) {
+TEST(ObjectAppearance, learnsEachPartWhereItLies) {
   const cv::Mat image = redAndGreenBox();
   const ChainModel model = boxModel();
   const ChainLayout layout = boxLayout(model);
-  const ObjectAppearance appearance = learnAppearance(image, layout, model.appearance);
+  ObjectAppearance appearance(image, layout, model.appearance);
   const SegmentLayout& segment = layout.segments[0];
-  ASSERT_EQ(segment.parts.size(), appearance.parts.size());
   for (size_t k = 0; k < segment.parts.size(); ++k) {
     const cv::Point2d center = segment.image_from_segment.apply(segment.parts[k].position);
-    EXPECT_EQ(learnPart(image, appearance.palette, center, segment.parts[k].side),
-              appearance.parts[k])
+    EXPECT_EQ(learnPart(image, appearance.palette(), center, segment.parts[k].side),
+              appearance.part(k, 0.0))
         << "part " << k;
   }
   const auto red = static_cast<size_t>(entryAt(appearance, image, {140, 120}));
   const auto green = static_cast<size_t>(entryAt(appearance, image, {180, 120}));
   // The chain starts in the first column, on the left, and ends in the last.
-  EXPECT_GT(appearance.parts.front()[red], 0.8F);
-  EXPECT_EQ(appearance.parts.front()[green], 0.0F);
-  EXPECT_GT(appearance.parts.back()[green], 0.8F);
-  EXPECT_EQ(appearance.parts.back()[red], 0.0F);
+  EXPECT_GT(appearance.part(0, 0.0)[red], 0.8F);
+  EXPECT_EQ(appearance.part(0, 0.0)[green], 0.0F);
+  EXPECT_GT(appearance.part(segment.parts.size() - 1, 0.0)[green], 0.8F);
+  EXPECT_EQ(appearance.part(segment.parts.size() - 1, 0.0)[red], 0.0F);
 }
 
-TEST(LearnAppearance, learnsTheStrokeOfALine) {
+TEST(ObjectAppearance, learnsTheStrokeOfALine) {
   cv::Mat image(200, 200, CV_8UC3, kBlue);
   image(cv::Rect(20, 95, 160, 11)).setTo(kRed);
   ChainModel model;
@@ -105,21 +107,54 @@ TEST(LearnAppearance, learnsTheStrokeOfALine) {
   model.segments[0].parts = 12;
   model.segments[0].aspect = 0.07;
   const ChainLayout layout = layOut(model, {{20, 100}, {180, 100}});
-  const ObjectAppearance appearance = learnAppearance(image, layout, model.appearance);
-  EXPECT_EQ(12U, appearance.parts.size());
+  ObjectAppearance appearance(image, layout, model.appearance);
   EXPECT_NE(ColorPalette::kOther, entryAt(appearance, image, {100, 100}));
   EXPECT_EQ(ColorPalette::kOther, entryAt(appearance, image, {100, 150}));
 }
 
-TEST(LearnAppearance, learnsObjectsThatStickOutOfTheImage) {
+TEST(ObjectAppearance, learnsObjectsThatStickOutOfTheImage) {
   const cv::Mat image = redAndGreenBox()(cv::Rect(150, 60, 100, 100));
   const ChainModel model = boxModel();
   // The box is now from -20 to 39.
   const ChainLayout layout = layOut(model, {{-20, 40}, {39, 40}, {39, 79}, {-20, 79}});
-  const ObjectAppearance appearance = learnAppearance(image, layout, model.appearance);
-  EXPECT_EQ(6U, appearance.parts.size());
-  const RootHistogram& outside = appearance.parts.front();
+  ObjectAppearance appearance(image, layout, model.appearance);
+  const RootHistogram& outside = appearance.part(0, 0.0);
   EXPECT_GT(outside[ColorPalette::kOther], 0.9F);
+}
+
+/// The image turned about the part's centre shows in the upright window what was learned for that
+/// turn; the twin turns the image, not the window.
+TEST(ObjectAppearance, ofATurnedPartIsThatOfTheTurnedImage) {
+  const cv::Mat image = redAndGreenBox();
+  const ChainModel model = boxModel();
+  const ChainLayout layout = boxLayout(model);
+  ObjectAppearance appearance(image, layout, model.appearance);
+  const SegmentLayout& segment = layout.segments[0];
+  for (double turn : {0.4, -0.8, 1.6, 3.1}) {
+    for (size_t k = 0; k < segment.parts.size(); ++k) {
+      const cv::Point2d center = segment.image_from_segment.apply(segment.parts[k].position);
+      cv::Mat turned;
+      const double degrees = -turn * 180.0 / CV_PI;  // OpenCV counts against the image's y axis
+      cv::warpAffine(image, turned, cv::getRotationMatrix2D(center, degrees, 1.0), image.size(),
+                     cv::INTER_NEAREST);
+      const RootHistogram expected =
+          learnPart(turned, appearance.palette(), center, segment.parts[k].side);
+      const RootHistogram& actual = appearance.part(k, turn);
+      ASSERT_EQ(expected.size(), actual.size());
+      for (size_t entry = 0; entry < expected.size(); ++entry) {
+        EXPECT_NEAR(expected[entry] * expected[entry], actual[entry] * actual[entry], 0.04)
+            << "part " << k << ", turn " << turn << ", entry " << entry;
+      }
+    }
+  }
+}
+
+TEST(ObjectAppearance, roundsTurnsToTenthsOfARadian) {
+  const ChainModel model = boxModel();
+  ObjectAppearance appearance(redAndGreenBox(), boxLayout(model), model.appearance);
+  EXPECT_EQ(&appearance.part(2, 0.76), &appearance.part(2, 0.84));
+  EXPECT_NE(&appearance.part(2, 0.76), &appearance.part(2, 0.74));
+  EXPECT_EQ(&appearance.part(2, 0.04), &appearance.part(2, -0.04));
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 /// onto the background (thesis ch. 3.2.1).
 #pragma once
 
+#include <map>
+#include <utility>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -14,13 +16,31 @@
 
 namespace chain_tracker {
 
-struct ObjectAppearance {
-  ColorPalette palette;
-  std::vector<RootHistogram> parts;  ///< of the segments' parts in order
-};
+class ObjectAppearance {
+ public:
+  /// Learns the colours of the object against those of the ring around it.
+  ObjectAppearance(const cv::Mat& image, const ChainLayout& layout, const AppearanceModel& model);
 
-/// Colours of the object against the ring around it, and each part's histogram.
-ObjectAppearance learnAppearance(const cv::Mat& image, const ChainLayout& layout,
-                                 const AppearanceModel& model);
+  const ColorPalette& palette() const { return palette_; }
+
+  /// Histogram of part `index`, counted over all segments, to be found when the object has turned
+  /// by `turn` [rad] there: windows stay upright, so they see its corners change. It is the
+  /// histogram of the window turned back in the first frame, to the nearest tenth of a radian;
+  /// learned when first asked for, O(pixels of the window).
+  const RootHistogram& part(size_t index, double turn);
+
+ private:
+  struct Window {
+    cv::Point2d center;  ///< in the first frame [px]
+    double side = 0.0;   ///< [px]
+  };
+
+  RootHistogram learnTurned(const Window& window, double turn) const;
+
+  ColorPalette palette_;
+  cv::Mat1b entries_;  ///< palette entries of the first frame
+  std::vector<Window> windows_;
+  std::map<std::pair<size_t, int>, RootHistogram> parts_;  ///< by part and whole turn steps
+};
 
 }  // namespace chain_tracker
