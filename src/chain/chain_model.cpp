@@ -82,6 +82,7 @@ void checkAppearance(const AppearanceModel& appearance, FaultList& faults) {
   faults.requireRange("appearance/ring", appearance.ring, 0.05, 3.0);
   faults.requireRange("appearance/min_object_share", appearance.min_object_share, 0.0, 0.95);
   faults.requireRange("appearance/weight", appearance.weight, 0.1, 1000.0);
+  faults.requireRange("appearance/haar_weight", appearance.haar_weight, 0.0, 1000.0);
 }
 
 void checkSearch(const SearchModel& search, FaultList& faults) {

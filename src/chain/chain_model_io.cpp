@@ -136,7 +136,8 @@ void readAppearance(const Reader& reader, AppearanceModel& appearance) {
   reader.readMap({{"palette_colors", into(appearance.palette_colors)},
                   {"ring", into(appearance.ring)},
                   {"min_object_share", into(appearance.min_object_share)},
-                  {"weight", into(appearance.weight)}});
+                  {"weight", into(appearance.weight)},
+                  {"haar_weight", into(appearance.haar_weight)}});
 }
 
 void readSearch(const Reader& reader, SearchModel& search) {

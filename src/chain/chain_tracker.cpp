@@ -17,6 +17,7 @@
 #include "chain_tracker/chain/pose_grid.h"
 #include "chain_tracker/chain/similarity_fit.h"
 #include "chain_tracker/chain/target_checks.h"
+#include "chain_tracker/chain/texture_costs.h"
 
 namespace chain_tracker {
 namespace {
@@ -250,13 +251,18 @@ class ChainTracker::Implementation {
 
   void computeCosts(const cv::Mat& image, size_t m, size_t first_part, Search& search) {
     const SegmentLayout& segment = layout_.segments[m];
-    std::vector<RootHistogram> parts;
-    for (size_t k = 0; k < segment.parts.size(); ++k) {
-      parts.push_back(appearance_.part(first_part + k, turnOf(first_part + k)));
+    std::vector<RootHistogram> colors;
+    std::vector<WindowTexture> textures;
+    for (size_t k = first_part; k < first_part + segment.parts.size(); ++k) {
+      const PartAppearance& part = appearance_.part(k, turnOf(k));
+      colors.push_back(part.colors);
+      textures.push_back(part.texture);
     }
-    computePartCosts(image, appearance_.palette(), parts, search.grids[m], model_.appearance.weight,
-                     search.candidates[m].costs, cost_workspace_);
     std::vector<cv::Mat1f>& costs = search.candidates[m].costs;
+    const AppearanceModel& model = model_.appearance;
+    computePartCosts(image, appearance_.palette(), colors, search.grids[m], model.weight, costs,
+                     cost_workspace_);
+    addTextureCosts(image, textures, search.grids[m], model.haar_weight, costs, texture_workspace_);
     const cv::Mat1f nothing(search.grids[m].states, 0.0F);
     if (segment.entry) costs.insert(costs.begin(), nothing);
     if (segment.exit) costs.push_back(nothing);
@@ -352,7 +358,8 @@ class ChainTracker::Implementation {
     PartState part;
     part.position = refined.position;
     part.covariance = refined.covariance;
-    part.confidence = std::clamp(1.0 - refined.appearance / model_.appearance.weight, 0.0, 1.0);
+    const double worst = model_.appearance.weight + model_.appearance.haar_weight;
+    part.confidence = std::clamp(1.0 - refined.appearance / worst, 0.0, 1.0);
     part.visible = part.confidence >= model_.search.occluded_below;
     return part;
   }
@@ -391,6 +398,7 @@ class ChainTracker::Implementation {
   std::vector<double> initial_orientations_;  // of the parts
   int frames_lost_ = 0;
   PartCostsWorkspace cost_workspace_;
+  TextureCostsWorkspace texture_workspace_;
   ChainSolverWorkspace solver_workspace_;
 };
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <opencv2/imgproc.hpp>
+
 namespace chain_tracker {
 namespace {
 
@@ -21,48 +23,68 @@ ColorPalette learnPalette(const cv::Mat& image, const Silhouette& silhouette,
   return {image, object, ring, {model.palette_colors, model.min_object_share}};
 }
 
+cv::Mat1b greyOf(const cv::Mat& image) {
+  cv::Mat1b grey;
+  if (image.channels() == 3) {
+    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  } else {
+    image.copyTo(grey);
+  }
+  return grey;
+}
+
 }  // namespace
 
 ObjectAppearance::ObjectAppearance(const cv::Mat& image, const ChainLayout& layout,
                                    const AppearanceModel& model)
-    : palette_(learnPalette(image, layout.silhouette, model)) {
+    : palette_(learnPalette(image, layout.silhouette, model)), grey_(greyOf(image)) {
   palette_.classify(image, cv::Rect(cv::Point(), image.size()), entries_);
   for (const SegmentLayout& segment : layout.segments) {
     for (const PartLayout& part : segment.parts) {
       const cv::Point2d center = segment.image_from_segment.apply(part.position);
-      parts_[{windows_.size(), 0}] = learnPart(image, palette_, center, part.side);
       windows_.push_back({center, part.side});
+      PartAppearance appearance = learnTurned(windows_.back(), 0.0);
+      appearance.colors = learnPart(image, palette_, center, part.side);
+      parts_[{windows_.size() - 1, 0}] = appearance;
     }
   }
 }
 
-const RootHistogram& ObjectAppearance::part(size_t index, double turn) {
+const PartAppearance& ObjectAppearance::part(size_t index, double turn) {
   const int steps = static_cast<int>(std::lround(turn / kTurnStep));
   const auto known = parts_.find({index, steps});
   if (known != parts_.end()) return known->second;
   return parts_[{index, steps}] = learnTurned(windows_[index], steps * kTurnStep);
 }
 
-RootHistogram ObjectAppearance::learnTurned(const Window& window, double turn) const {
+PartAppearance ObjectAppearance::learnTurned(const Window& window, double turn) const {
   const int samples = kSamplesPerPixel * std::max(1, static_cast<int>(std::lround(window.side)));
   const double spacing = 1.0 / kSamplesPerPixel;
   const Similarity image_from_window{-turn, 1.0, window.center};
   const cv::Rect image(cv::Point(), entries_.size());
   std::vector<int> counts(static_cast<size_t>(palette_.size()), 0);
+  int quadrants[2][2] = {{0, 0}, {0, 0}};
   for (int row = 0; row < samples; ++row) {
     for (int column = 0; column < samples; ++column) {
       const cv::Point2d offset(column - 0.5 * (samples - 1), row - 0.5 * (samples - 1));
       const cv::Point pixel = image_from_window.apply(spacing * offset);
       const int entry = image.contains(pixel) ? entries_(pixel) : ColorPalette::kOther;
       ++counts[static_cast<size_t>(entry)];
+      const cv::Point nearest(std::clamp(pixel.x, 0, image.width - 1),
+                              std::clamp(pixel.y, 0, image.height - 1));
+      quadrants[2 * row / samples][2 * column / samples] += grey_(nearest);
     }
   }
-  RootHistogram histogram;
+  const auto all = static_cast<float>(samples * samples);
+  PartAppearance appearance;
   for (int count : counts) {
-    histogram.push_back(
-        std::sqrt(static_cast<float>(count) / static_cast<float>(samples * samples)));
+    appearance.colors.push_back(std::sqrt(static_cast<float>(count) / all));
   }
-  return histogram;
+  const auto mean = [&](int row, int column) {
+    return 4.0F * static_cast<float>(quadrants[row][column]) / all;
+  };
+  appearance.texture = textureOf(mean(0, 0), mean(0, 1), mean(1, 0), mean(1, 1));
+  return appearance;
 }
 
 }  // namespace chain_tracker

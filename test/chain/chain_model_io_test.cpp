@@ -58,6 +58,7 @@ appearance:
   ring: 0.75
   min_object_share: 0.375
   weight: 5.5
+  haar_weight: 2.25
 search:
   radius: 0.09
   lost_below: 0.125
@@ -85,7 +86,7 @@ ChainModel everyKeyModel() {
   model.segments.emplace_back();
   model.segments[1].name = "nozzle";
   model.joints = {{-0.5, 1.5}};
-  model.appearance = {31, 0.75, 0.375, 5.5};
+  model.appearance = {31, 0.75, 0.375, 5.5, 2.25};
   model.search = {0.09, 0.125, 0.625, 0.3};
   return model;
 }
@@ -112,7 +113,7 @@ TEST(ParseChainModel, noKeyIsUntested) {
       ++keys;
     }
   }
-  EXPECT_EQ(29U, keys);
+  EXPECT_EQ(30U, keys);
 }
 
 TEST(ParseChainModel, keysLeftOutKeepTheirDefaults) {

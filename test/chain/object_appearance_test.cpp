@@ -87,16 +87,16 @@ TEST(ObjectAppearance, learnsEachPartWhereItLies) {
   for (size_t k = 0; k < segment.parts.size(); ++k) {
     const cv::Point2d center = segment.image_from_segment.apply(segment.parts[k].position);
     EXPECT_EQ(learnPart(image, appearance.palette(), center, segment.parts[k].side),
-              appearance.part(k, 0.0))
+              appearance.part(k, 0.0).colors)
         << "part " << k;
   }
   const auto red = static_cast<size_t>(entryAt(appearance, image, {140, 120}));
   const auto green = static_cast<size_t>(entryAt(appearance, image, {180, 120}));
   // The chain starts in the first column, on the left, and ends in the last.
-  EXPECT_GT(appearance.part(0, 0.0)[red], 0.8F);
-  EXPECT_EQ(appearance.part(0, 0.0)[green], 0.0F);
-  EXPECT_GT(appearance.part(segment.parts.size() - 1, 0.0)[green], 0.8F);
-  EXPECT_EQ(appearance.part(segment.parts.size() - 1, 0.0)[red], 0.0F);
+  EXPECT_GT(appearance.part(0, 0.0).colors[red], 0.8F);
+  EXPECT_EQ(appearance.part(0, 0.0).colors[green], 0.0F);
+  EXPECT_GT(appearance.part(segment.parts.size() - 1, 0.0).colors[green], 0.8F);
+  EXPECT_EQ(appearance.part(segment.parts.size() - 1, 0.0).colors[red], 0.0F);
 }
 
 TEST(ObjectAppearance, learnsTheStrokeOfALine) {
@@ -118,7 +118,7 @@ TEST(ObjectAppearance, learnsObjectsThatStickOutOfTheImage) {
   // The box is now from -20 to 39.
   const ChainLayout layout = layOut(model, {{-20, 40}, {39, 40}, {39, 79}, {-20, 79}});
   ObjectAppearance appearance(image, layout, model.appearance);
-  const RootHistogram& outside = appearance.part(0, 0.0);
+  const RootHistogram& outside = appearance.part(0, 0.0).colors;
   EXPECT_GT(outside[ColorPalette::kOther], 0.9F);
 }
 
@@ -139,7 +139,7 @@ TEST(ObjectAppearance, ofATurnedPartIsThatOfTheTurnedImage) {
                      cv::INTER_NEAREST);
       const RootHistogram expected =
           learnPart(turned, appearance.palette(), center, segment.parts[k].side);
-      const RootHistogram& actual = appearance.part(k, turn);
+      const RootHistogram& actual = appearance.part(k, turn).colors;
       ASSERT_EQ(expected.size(), actual.size());
       for (size_t entry = 0; entry < expected.size(); ++entry) {
         EXPECT_NEAR(expected[entry] * expected[entry], actual[entry] * actual[entry], 0.04)
@@ -147,6 +147,21 @@ TEST(ObjectAppearance, ofATurnedPartIsThatOfTheTurnedImage) {
       }
     }
   }
+}
+
+/// Red is darker than green: the pattern of the window astride both turns with the object.
+TEST(ObjectAppearance, textureTurnsWithTheObject) {
+  ChainModel model = boxModel();
+  model.segments[0].parts = 2;
+  model.segments[0].layout = Layout::kElongated;
+  const ChainLayout layout = layOut(model, {{150, 120}, {170, 120}});
+  ObjectAppearance appearance(redAndGreenBox(), layout, model.appearance);
+  const WindowTexture upright = appearance.part(0, 0.0).texture;
+  EXPECT_LT(upright[0], -0.5F) << "darker on the left";
+  EXPECT_NEAR(0.0F, upright[1], 0.2F);
+  const WindowTexture quarter = appearance.part(0, CV_PI / 2.0).texture;
+  EXPECT_LT(quarter[1], -0.5F) << "the left has become the top";
+  EXPECT_NEAR(0.0F, quarter[0], 0.2F);
 }
 
 TEST(ObjectAppearance, roundsTurnsToTenthsOfARadian) {

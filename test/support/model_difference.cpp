@@ -38,6 +38,7 @@ class Differences {
     compare("appearance/ring", expected.ring, actual.ring);
     compare("appearance/min_object_share", expected.min_object_share, actual.min_object_share);
     compare("appearance/weight", expected.weight, actual.weight);
+    compare("appearance/haar_weight", expected.haar_weight, actual.haar_weight);
   }
 
   void compare(const SearchModel& expected, const SearchModel& actual) {

@@ -48,15 +48,16 @@ struct AppearanceModel {
   int palette_colors = 24;        ///< colours learned from the object and the ring around it
   double ring = 0.5;              ///< width of that ring, fraction of the object's size
   double min_object_share = 0.5;  ///< a colour rarer on the object than this becomes "other"
-  double weight = 8.0;            ///< of the appearance cost against the springs
+  double weight = 8.0;            ///< of the colour cost against the springs
+  double haar_weight = 4.0;       ///< of the texture cost against the springs; 0: colour alone
 };
 
 /// Where and when the object is looked for, and when it counts as found.
 struct SearchModel {
-  double radius = 0.06;          ///< reach of a part between frames, fraction of the image diagonal
-  double lost_below = 0.28;      ///< confidence under which a tracked object becomes LOST
-  double found_above = 0.4;      ///< confidence over which a LOST object is tracked again
-  double occluded_below = 0.25;  ///< confidence under which a part counts as hidden
+  double radius = 0.06;         ///< reach of a part between frames, fraction of the image diagonal
+  double lost_below = 0.28;     ///< confidence under which a tracked object becomes LOST
+  double found_above = 0.4;     ///< confidence over which a LOST object is tracked again
+  double occluded_below = 0.4;  ///< confidence under which a part counts as hidden
 };
 
 /// Several segments are joined end to end at the vertices of the polyline that initialises them.

@@ -13,8 +13,14 @@
 #include "chain_tracker/chain/chain_model.h"
 #include "chain_tracker/chain/part_costs.h"
 #include "chain_tracker/image/color_palette.h"
+#include "chain_tracker/image/window_textures.h"
 
 namespace chain_tracker {
+
+struct PartAppearance {
+  RootHistogram colors;
+  WindowTexture texture{};
+};
 
 class ObjectAppearance {
  public:
@@ -23,11 +29,11 @@ class ObjectAppearance {
 
   const ColorPalette& palette() const { return palette_; }
 
-  /// Histogram of part `index`, counted over all segments, to be found when the object has turned
-  /// by `turn` [rad] there: windows stay upright, so they see its corners change. It is the
-  /// histogram of the window turned back in the first frame, to the nearest tenth of a radian;
-  /// learned when first asked for, O(pixels of the window).
-  const RootHistogram& part(size_t index, double turn);
+  /// What part `index`, counted over all segments, looks like when the object has turned by `turn`
+  /// [rad] there: windows stay upright, so they see its corners change. It is the look of the
+  /// window turned back in the first frame, to the nearest tenth of a radian; learned when first
+  /// asked for, O(pixels of the window).
+  const PartAppearance& part(size_t index, double turn);
 
  private:
   struct Window {
@@ -35,12 +41,13 @@ class ObjectAppearance {
     double side = 0.0;   ///< [px]
   };
 
-  RootHistogram learnTurned(const Window& window, double turn) const;
+  PartAppearance learnTurned(const Window& window, double turn) const;
 
   ColorPalette palette_;
   cv::Mat1b entries_;  ///< palette entries of the first frame
+  cv::Mat1b grey_;     ///< its brightness
   std::vector<Window> windows_;
-  std::map<std::pair<size_t, int>, RootHistogram> parts_;  ///< by part and whole turn steps
+  std::map<std::pair<size_t, int>, PartAppearance> parts_;  ///< by part and whole turn steps
 };
 
 }  // namespace chain_tracker
