@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation_pictures.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace chain_tracker {
+namespace {
+
+const cv::Scalar kTrackedColor(80, 220, 60);
+const cv::Scalar kHiddenColor(150, 150, 150);
+const cv::Scalar kTruthColor(255, 120, 30);
+const cv::Scalar kLostColor(40, 40, 230);
+constexpr double kVideoRate = 30.0;
+constexpr std::size_t kWorstFrames = 8;
+constexpr int kStripColumns = 4;
+const cv::Size kStripCell(400, 300);
+
+void drawTruth(const GroundTruth& truth, int frame, int thickness, cv::Mat& canvas) {
+  const auto box = truth.boxes.find(frame);
+  if (box != truth.boxes.end() && box->second) {
+    cv::rectangle(canvas, cv::Rect(*box->second), kTruthColor, thickness, cv::LINE_AA);
+  }
+  const auto points = truth.points.find(frame);
+  if (points == truth.points.end()) return;
+  for (const auto& point : points->second) {
+    cv::drawMarker(canvas, cv::Point(point.second.position), kTruthColor, cv::MARKER_CROSS,
+                   6 * thickness, thickness, cv::LINE_AA);
+  }
+}
+
+void drawTracked(const TrackedFrame& tracked, int thickness, cv::Mat& canvas) {
+  for (std::size_t k = 0; k < tracked.parts.size(); ++k) {
+    const PartState& part = tracked.parts[k];
+    const cv::Scalar color = part.visible ? kTrackedColor : kHiddenColor;
+    if (k > 0) {
+      cv::line(canvas, cv::Point(tracked.parts[k - 1].position), cv::Point(part.position), color,
+               thickness, cv::LINE_AA);
+    }
+    cv::circle(canvas, cv::Point(part.position), 2 * thickness, color, cv::FILLED, cv::LINE_AA);
+  }
+  cv::rectangle(canvas, cv::Rect(tracked.box), kTrackedColor, thickness, cv::LINE_AA);
+}
+
+double badness(const FrameScore& score) {
+  if (score.has_object) return 1.0 - score.overlap;
+  return score.point_errors.empty() ? -1.0 : mean(score.point_errors);
+}
+
+/// The worst frames, best known by their index.
+std::map<int, const EvaluatedFrame*> worstOf(const TrackerRun& run) {
+  std::vector<const EvaluatedFrame*> ranked;
+  for (const EvaluatedFrame& frame : run.frames) {
+    if (badness(frame.score) > 0.0) ranked.push_back(&frame);
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto* a, const auto* b) {
+    return badness(a->score) > badness(b->score);
+  });
+  ranked.resize(std::min(ranked.size(), kWorstFrames));
+  std::map<int, const EvaluatedFrame*> worst;
+  for (const EvaluatedFrame* frame : ranked) worst[frame->index] = frame;
+  return worst;
+}
+
+cv::Mat stripOf(const std::vector<cv::Mat>& cells) {
+  const int rows = (static_cast<int>(cells.size()) + kStripColumns - 1) / kStripColumns;
+  cv::Mat strip(rows * kStripCell.height, kStripColumns * kStripCell.width, CV_8UC3,
+                cv::Scalar::all(255));
+  for (int i = 0; i < static_cast<int>(cells.size()); ++i) {
+    const cv::Mat& cell = cells[static_cast<std::size_t>(i)];
+    const double zoom = std::min(double(kStripCell.width) / cell.cols,
+                                 double(kStripCell.height) / cell.rows);
+    cv::Mat small;
+    cv::resize(cell, small, cv::Size(), zoom, zoom, cv::INTER_AREA);
+    const cv::Point corner((i % kStripColumns) * kStripCell.width,
+                           (i / kStripColumns) * kStripCell.height);
+    small.copyTo(strip(cv::Rect(corner, small.size())));
+  }
+  return strip;
+}
+
+}  // namespace
+
+cv::Mat drawComparison(const Frame& frame, const TrackedFrame& tracked, const GroundTruth& truth) {
+  cv::Mat canvas;
+  if (frame.image.channels() == 3) {
+    canvas = frame.image.clone();
+  } else {
+    cv::cvtColor(frame.image, canvas, cv::COLOR_GRAY2BGR);
+  }
+  const int thickness = std::max(1, cvRound(canvas.cols / 500.0));
+  drawTruth(truth, frame.index, thickness, canvas);
+  if (!tracked.lost) drawTracked(tracked, thickness, canvas);
+  const std::string label = std::to_string(frame.index) + " " + tracked.state + " " +
+                            std::to_string(cvRound(100.0 * tracked.confidence)) + " %";
+  cv::putText(canvas, label, {8, 14 + 12 * thickness}, cv::FONT_HERSHEY_SIMPLEX,
+              0.5 * thickness + 0.1, tracked.lost ? kLostColor : kTrackedColor, thickness + 1,
+              cv::LINE_AA);
+  return canvas;
+}
+
+OverlayVideo::OverlayVideo(std::string path) : path_(std::move(path)) {}
+
+void OverlayVideo::add(const Frame& frame, const TrackedFrame& tracked, const GroundTruth& truth) {
+  if (path_.empty()) return;
+  const cv::Mat picture = drawComparison(frame, tracked, truth);
+  if (!writer_.isOpened()) {
+    writer_.open(path_, cv::VideoWriter::fourcc('a', 'v', 'c', '1'), kVideoRate, picture.size());
+  }
+  if (!writer_.isOpened()) {
+    writer_.open(path_, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), kVideoRate, picture.size());
+  }
+  if (!writer_.isOpened()) throw std::runtime_error(path_ + " cannot be written");
+  writer_.write(picture);
+}
+
+void writeWorstFrames(FrameSource& frames, const EvaluationResult& result,
+                      const GroundTruth& truth, const std::string& path) {
+  const std::map<int, const EvaluatedFrame*> worst = worstOf(result.runs.front());
+  std::vector<cv::Mat> cells;
+  Frame frame;
+  while (cells.size() < worst.size() && frames.next(frame)) {
+    const auto entry = worst.find(frame.index);
+    if (entry == worst.end() || frame.image.empty()) continue;
+    cells.push_back(drawComparison(frame, entry->second->tracked, truth));
+  }
+  if (cells.empty()) return;
+  if (!cv::imwrite(path, stripOf(cells))) throw std::runtime_error(path + " cannot be written");
+}
+
+}  // namespace chain_tracker
