@@ -147,12 +147,12 @@ const std::map<std::string, Factory>& factories() {
   using Box = cv::Rect2d;
 #endif
   static const std::map<std::string, Factory> all = {
-      {"camshift", [](const cv::Rect& box) { return std::make_unique<CamShiftTracker>(box); }},
-      {"mil", factoryOf<cv::TrackerMIL, Box>("mil")},
+    {"camshift", [](const cv::Rect& box) { return std::make_unique<CamShiftTracker>(box); }},
+    {"mil", factoryOf<cv::TrackerMIL, Box>("mil")},
 #if CHAIN_TRACKER_HAS_CONTRIB
-      {"kcf", factoryOf<cv::TrackerKCF, Box>("kcf")},
-      {"csrt", factoryOf<cv::TrackerCSRT, Box>("csrt")},
-      {"medianflow", factoryOf<cv_median_flow::TrackerMedianFlow, cv::Rect2d>("medianflow")},
+    {"kcf", factoryOf<cv::TrackerKCF, Box>("kcf")},
+    {"csrt", factoryOf<cv::TrackerCSRT, Box>("csrt")},
+    {"medianflow", factoryOf<cv_median_flow::TrackerMedianFlow, cv::Rect2d>("medianflow")},
 #endif
   };
   return all;
@@ -171,10 +171,9 @@ std::unique_ptr<EvaluatedTracker> makeBaseline(const std::string& name, const cv
   if (factory != factories().end()) return factory->second(wholePixels(box));
   std::string names;
   for (const std::string& known : baselineNames()) names += (names.empty() ? "" : ", ") + known;
-  throw std::invalid_argument("baseline is '" + name + "', must be one of: " + names +
-                              (CHAIN_TRACKER_HAS_CONTRIB
-                                   ? ""
-                                   : " (OpenCV was built without its contributed trackers)"));
+  throw std::invalid_argument(
+      "baseline is '" + name + "', must be one of: " + names +
+      (CHAIN_TRACKER_HAS_CONTRIB ? "" : " (OpenCV was built without its contributed trackers)"));
 }
 
 }  // namespace chain_tracker

@@ -24,9 +24,14 @@ class EvaluatedChainTracker : public EvaluatedTracker {
  private:
   static TrackedFrame report(const ChainState& state) {
     const Similarity& pose = state.segments.front().image_from_segment;
-    return {toString(state.status), state.confidence,
+    return {toString(state.status),
+            state.confidence,
             state.status == TrackingStatus::kLost,
-            state.box, pose.angle, pose.scale, state.parts, state.points};
+            state.box,
+            pose.angle,
+            pose.scale,
+            state.parts,
+            state.points};
   }
 
   ChainModel model_;

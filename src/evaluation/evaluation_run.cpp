@@ -55,7 +55,7 @@ cv::Rect2d pointBox(const TrackedFrame& tracked) {
   return boxAround(points);
 }
 
-EvaluatedFrame process(EvaluatedTracker& tracker, const Frame& frame, bool first,
+EvaluatedFrame process(EvaluatedTracker& tracker, const SourceFrame& frame, bool first,
                        const GroundTruth& truth) {
   EvaluatedFrame evaluated;
   evaluated.index = frame.index;
@@ -117,7 +117,7 @@ EvaluationResult evaluate(FrameSource& frames,
                           const EvaluationOptions& options) {
   EvaluationResult result;
   for (const auto& tracker : trackers) result.runs.push_back({tracker->name(), {}, {}});
-  Frame frame;
+  SourceFrame frame;
   int processed = 0;
   bool first = true;
   while ((options.max_frames == 0 || processed < options.max_frames) && frames.next(frame)) {

@@ -33,7 +33,7 @@ class PictureSource : public FrameSource {
  public:
   explicit PictureSource(std::vector<fs::path> files) : files_(std::move(files)) {}
 
-  bool next(Frame& frame) override {
+  bool next(SourceFrame& frame) override {
     if (next_ == files_.size()) return false;
     const std::string path = files_[next_].string();
     frame = {static_cast<int>(next_), static_cast<double>(next_) / kPictureRate,
@@ -58,7 +58,7 @@ class VideoSource : public FrameSource {
     if (rate > 0.0) rate_ = rate;
   }
 
-  bool next(Frame& frame) override {
+  bool next(SourceFrame& frame) override {
     cv::Mat image;
     if (!video_.read(image)) return false;
     frame = {next_, next_ / rate_, image, ""};

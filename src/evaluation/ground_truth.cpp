@@ -106,8 +106,9 @@ void readBoxes(const std::string& path, GroundTruth& truth) {
     if (isBlank(line)) continue;
     const std::vector<double> n = numbersIn(line, path, number);
     if (n.size() != 4 && n.size() != 8) {
-      refuse(path, number, "has " + std::to_string(n.size()) +
-                               " numbers, must be x,y,w,h or the 8 of four corners");
+      refuse(
+          path, number,
+          "has " + std::to_string(n.size()) + " numbers, must be x,y,w,h or the 8 of four corners");
     }
     std::optional<cv::Rect2d> box;
     if (!hasNan(n)) {
@@ -162,8 +163,8 @@ std::optional<SequenceStart> readStart(const std::string& folder, const GroundTr
   for (const auto& [frame, box] : truth.boxes) {
     if (!box) continue;
     start.first_frame = frame;
-    start.points = frame == 0 && !truth.first_polygon.empty() ? truth.first_polygon
-                                                              : cornersOf(*box);
+    start.points =
+        frame == 0 && !truth.first_polygon.empty() ? truth.first_polygon : cornersOf(*box);
     return start;
   }
   return std::nullopt;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Scores the chain tracker, beside OpenCV's trackers, on sequences and bags.
-#include <ros/package.h>
-
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -14,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
+#include <ros/package.h>
 
 #include "chain_tracker/evaluation/evaluated_tracker.h"
 #include "common/evaluation_files.h"
@@ -120,7 +119,8 @@ int run(Options& options, const std::string& program) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Scores the chain tracker, beside OpenCV's trackers, on a sequence, a bag or a suite.");
+  CLI::App app(
+      "Scores the chain tracker, beside OpenCV's trackers, on a sequence, a bag or a suite.");
   Options options;
   addOptions(app, options);
   try {

@@ -18,8 +18,8 @@ struct TrackedFrame {
   std::string state;        ///< TRACKING, OCCLUDED, LOST, ...
   double confidence = 0.0;  ///< [0, 1]; box trackers: 1 while they report success
   bool lost = false;
-  cv::Rect2d box;           ///< [px]
-  double theta = 0.0;       ///< [rad]
+  cv::Rect2d box;      ///< [px]
+  double theta = 0.0;  ///< [rad]
   double scale = 1.0;
   std::vector<PartState> parts;
   std::vector<CarriedPoint> points;

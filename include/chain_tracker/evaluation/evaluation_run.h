@@ -30,16 +30,16 @@ struct TrackerRun {
 
 struct EvaluationOptions {
   int first_frame = 0;
-  int max_frames = 0;                     ///< 0: all
-  std::function<bool()> interrupted;      ///< asked before every frame; true ends the run
+  int max_frames = 0;                       ///< 0: all
+  std::function<bool()> interrupted;        ///< asked before every frame; true ends the run
   std::function<void(int frame)> progress;  ///< after every frame
   /// Sees every frame with the chain tracker's result, for pictures; may be empty.
-  std::function<void(const Frame&, const TrackedFrame&)> observer;
+  std::function<void(const SourceFrame&, const TrackedFrame&)> observer;
 };
 
 struct EvaluationResult {
-  std::vector<TrackerRun> runs;          ///< in the order of the trackers
-  std::vector<std::string> faults;       ///< of frames that could not be read, one line each
+  std::vector<TrackerRun> runs;     ///< in the order of the trackers
+  std::vector<std::string> faults;  ///< of frames that could not be read, one line each
   int skipped_frames = 0;
   bool interrupted = false;
 };

@@ -9,11 +9,11 @@
 
 namespace chain_tracker {
 
-struct Frame {
-  int index = 0;         ///< from 0, in the source's order; unreadable frames count
+struct SourceFrame {
+  int index = 0;  ///< from 0, in the source's order; unreadable frames count
   double time_sec = 0.0;
-  cv::Mat image;         ///< CV_8UC3 or CV_8UC1; empty if the frame cannot be read
-  std::string fault;     ///< why it cannot be read; empty if it can
+  cv::Mat image;      ///< CV_8UC3 or CV_8UC1; empty if the frame cannot be read
+  std::string fault;  ///< why it cannot be read; empty if it can
 };
 
 class FrameSource {
@@ -22,7 +22,7 @@ class FrameSource {
 
   /// The next frame; false after the last one. Every frame is delivered, none is dropped; one that
   /// cannot be read is delivered without an image.
-  virtual bool next(Frame& frame) = 0;
+  virtual bool next(SourceFrame& frame) = 0;
 
   /// Number of frames, or 0 if only reading on will tell.
   virtual int count() const = 0;

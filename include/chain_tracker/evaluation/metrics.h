@@ -40,11 +40,11 @@ double shareWithin(const std::vector<double>& values, double limit);
 
 /// What a frame counts for. A frame without truth does not count at all.
 struct FrameScore {
-  bool has_object = false;        ///< the truth says where the object is
-  bool has_absence = false;       ///< the truth says that it is not there
-  bool lost = false;              ///< the tracker reports that it does not know
-  double overlap = 0.0;           ///< 0 for a lost frame
-  double center_error = 0.0;      ///< [px]; infinite for a lost frame
+  bool has_object = false;           ///< the truth says where the object is
+  bool has_absence = false;          ///< the truth says that it is not there
+  bool lost = false;                 ///< the tracker reports that it does not know
+  double overlap = 0.0;              ///< 0 for a lost frame
+  double center_error = 0.0;         ///< [px]; infinite for a lost frame
   std::vector<double> point_errors;  ///< of visible true points [px]; infinite for a lost frame
 };
 
@@ -54,15 +54,15 @@ struct Scores {
   int scored_frames = 0;  ///< with an object in the truth
   double mean_iou = 0.0;
   double success_auc = 0.0;
-  double pascal_50 = 0.0;       ///< share of frames with IoU > 0.5
-  double precision_20px = 0.0;  ///< share of frames with the centre within 20 px
+  double pascal_50 = 0.0;             ///< share of frames with IoU > 0.5
+  double precision_20px = 0.0;        ///< share of frames with the centre within 20 px
   double mean_center_error_px = 0.0;  ///< over the frames not lost
   double part_error_mean_px = 0.0;    ///< over the points of frames not lost; NaN without points
   double part_error_median_px = 0.0;
   double part_error_p95_px = 0.0;
-  double pck_10 = 0.0;     ///< share of visible points within 10 % of the object's length
-  int lost_frames = 0;     ///< lost although the object was there
-  int reacquired = 0;      ///< times a lost object was found again with IoU > 0
+  double pck_10 = 0.0;  ///< share of visible points within 10 % of the object's length
+  int lost_frames = 0;  ///< lost although the object was there
+  int reacquired = 0;   ///< times a lost object was found again with IoU > 0
   double fps = 0.0;
   double latency_p50_ms = 0.0;
   double latency_p99_ms = 0.0;

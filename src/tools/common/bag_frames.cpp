@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bag_frames.h"
 
-#include <cv_bridge/cv_bridge.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-#include <sensor_msgs/CompressedImage.h>
-#include <sensor_msgs/Image.h>
-#include <sensor_msgs/image_encodings.h>
-
 #include <algorithm>
 #include <map>
 #include <set>
@@ -15,7 +8,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include <cv_bridge/cv_bridge.h>
 #include <opencv2/imgcodecs.hpp>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/image_encodings.h>
 
 #include "chain_tracker/TrackedObjectArray.h"
 
@@ -35,8 +34,10 @@ class BagTopic {
     try {
       bag_.open(path, rosbag::bagmode::Read);
     } catch (const rosbag::BagUnindexedException&) {
-      throw std::invalid_argument(path + " has no index, as a recording cut off has: repair it "
-                                  "with `rosbag reindex " + path + "`");
+      throw std::invalid_argument(path +
+                                  " has no index, as a recording cut off has: repair it "
+                                  "with `rosbag reindex " +
+                                  path + "`");
     } catch (const rosbag::BagException& error) {
       throw std::invalid_argument(path + " cannot be read as a bag: " + error.what());
     }
@@ -101,7 +102,7 @@ class BagSource : public FrameSource {
   BagSource(const std::string& path, const std::string& topic)
       : topic_(path, topic, kImageTypes), next_(topic_.view().begin()) {}
 
-  bool next(Frame& frame) override {
+  bool next(SourceFrame& frame) override {
     if (next_ == topic_.view().end()) return false;
     const ImageMessage message = decode(*next_, true);
     frame = {index_, message.header.stamp.toSec(), message.image, message.fault};
@@ -110,7 +111,9 @@ class BagSource : public FrameSource {
     return true;
   }
 
-  int count() const override { return static_cast<int>(const_cast<BagTopic&>(topic_).view().size()); }
+  int count() const override {
+    return static_cast<int>(const_cast<BagTopic&>(topic_).view().size());
+  }
 
  private:
   BagTopic topic_;
@@ -121,7 +124,8 @@ class BagSource : public FrameSource {
 template <typename Value>
 std::string listOf(const std::set<Value>& values) {
   std::ostringstream text;
-  for (const Value& value : values) text << (value == *values.begin() ? "'" : ", '") << value << "'";
+  for (const Value& value : values)
+    text << (value == *values.begin() ? "'" : ", '") << value << "'";
   return text.str();
 }
 

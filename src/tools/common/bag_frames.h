@@ -21,8 +21,8 @@ std::unique_ptr<FrameSource> openBagFrames(const std::string& bag, const std::st
 /// encodings that change. One line each; empty if all is well. Throws as above.
 std::vector<std::string> checkBag(const std::string& bag, const std::string& topic);
 
-/// Truth from a recorded chain_tracker/TrackedObjectArray topic: the carried points and boxes of the
-/// first object, matched to the images by stamp. Throws as above, naming the topic.
+/// Truth from a recorded chain_tracker/TrackedObjectArray topic: the carried points and boxes of
+/// the first object, matched to the images by stamp. Throws as above, naming the topic.
 GroundTruth readTruthTopic(const std::string& bag, const std::string& truth_topic,
                            const std::string& image_topic);
 

@@ -24,8 +24,8 @@ std::ofstream openForWriting(const std::string& folder, const std::string& name)
 
 ObjectRow objectRow(const EvaluatedFrame& frame) {
   const TrackedFrame& tracked = frame.tracked;
-  return {frame.index,   frame.time_ms, tracked.state,     tracked.confidence, tracked.box.x,
-          tracked.box.y, tracked.box.width, tracked.box.height, tracked.theta, tracked.scale};
+  return {frame.index,   frame.time_ms,     tracked.state,      tracked.confidence, tracked.box.x,
+          tracked.box.y, tracked.box.width, tracked.box.height, tracked.theta,      tracked.scale};
 }
 
 void writeObjects(const TrackerRun& run, const std::string& folder) {
@@ -129,8 +129,7 @@ json summaryOf(const EvaluationResult& result, const std::string& sequence,
   return summary;
 }
 
-void writeResults(const EvaluationResult& result, const json& summary,
-                  const std::string& folder) {
+void writeResults(const EvaluationResult& result, const json& summary, const std::string& folder) {
   writeObjects(result.runs.front(), folder);
   writeScores(result, folder);
   openForWriting(folder, "summary.json") << summary.dump(2) << "\n";

@@ -76,8 +76,9 @@ SequenceStart startOf(const EvaluationJob& job, const Input& input) {
   if (!job.model.empty()) start.model = job.model;
   if (start.points.empty()) {
     throw std::invalid_argument(
-        input.name + " has neither ground truth nor an init.yaml that say where the object is: "
-                     "give --points x,y,x,y,... or --ground-truth");
+        input.name +
+        " has neither ground truth nor an init.yaml that say where the object is: "
+        "give --points x,y,x,y,... or --ground-truth");
   }
   if (start.model == "auto") start.model = autoModelName(start.points);
   return start;
@@ -135,7 +136,7 @@ nlohmann::json runJob(const EvaluationJob& job, const std::function<bool()>& int
   options.max_frames = job.max_frames;
   options.interrupted = interrupted;
   options.progress = [&](int done) { progress.report(done); };
-  options.observer = [&](const Frame& frame, const TrackedFrame& tracked) {
+  options.observer = [&](const SourceFrame& frame, const TrackedFrame& tracked) {
     video.add(frame, tracked, input.truth);
   };
   const EvaluationResult result =

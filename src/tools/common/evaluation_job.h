@@ -12,11 +12,11 @@
 namespace chain_tracker {
 
 struct EvaluationJob {
-  std::string sequence;      ///< folder or video; empty: a bag
+  std::string sequence;  ///< folder or video; empty: a bag
   std::string bag;
-  std::string topic;         ///< of the images in the bag
-  std::string ground_truth;  ///< file, or topic of the bag; empty: the folder's
-  std::string model;         ///< name, file, "auto" or empty: what the sequence says
+  std::string topic;                ///< of the images in the bag
+  std::string ground_truth;         ///< file, or topic of the bag; empty: the folder's
+  std::string model;                ///< name, file, "auto" or empty: what the sequence says
   std::vector<cv::Point2d> points;  ///< empty: what the sequence says
   std::vector<std::string> baselines;
   int max_frames = 0;

@@ -73,8 +73,8 @@ cv::Mat stripOf(const std::vector<cv::Mat>& cells) {
                 cv::Scalar::all(255));
   for (int i = 0; i < static_cast<int>(cells.size()); ++i) {
     const cv::Mat& cell = cells[static_cast<std::size_t>(i)];
-    const double zoom = std::min(double(kStripCell.width) / cell.cols,
-                                 double(kStripCell.height) / cell.rows);
+    const double zoom =
+        std::min(double(kStripCell.width) / cell.cols, double(kStripCell.height) / cell.rows);
     cv::Mat small;
     cv::resize(cell, small, cv::Size(), zoom, zoom, cv::INTER_AREA);
     const cv::Point corner((i % kStripColumns) * kStripCell.width,
@@ -86,7 +86,8 @@ cv::Mat stripOf(const std::vector<cv::Mat>& cells) {
 
 }  // namespace
 
-cv::Mat drawComparison(const Frame& frame, const TrackedFrame& tracked, const GroundTruth& truth) {
+cv::Mat drawComparison(const SourceFrame& frame, const TrackedFrame& tracked,
+                       const GroundTruth& truth) {
   cv::Mat canvas;
   if (frame.image.channels() == 3) {
     canvas = frame.image.clone();
@@ -106,7 +107,8 @@ cv::Mat drawComparison(const Frame& frame, const TrackedFrame& tracked, const Gr
 
 OverlayVideo::OverlayVideo(std::string path) : path_(std::move(path)) {}
 
-void OverlayVideo::add(const Frame& frame, const TrackedFrame& tracked, const GroundTruth& truth) {
+void OverlayVideo::add(const SourceFrame& frame, const TrackedFrame& tracked,
+                       const GroundTruth& truth) {
   if (path_.empty()) return;
   const cv::Mat picture = drawComparison(frame, tracked, truth);
   if (!writer_.isOpened()) {
@@ -119,11 +121,11 @@ void OverlayVideo::add(const Frame& frame, const TrackedFrame& tracked, const Gr
   writer_.write(picture);
 }
 
-void writeWorstFrames(FrameSource& frames, const EvaluationResult& result,
-                      const GroundTruth& truth, const std::string& path) {
+void writeWorstFrames(FrameSource& frames, const EvaluationResult& result, const GroundTruth& truth,
+                      const std::string& path) {
   const std::map<int, const EvaluatedFrame*> worst = worstOf(result.runs.front());
   std::vector<cv::Mat> cells;
-  Frame frame;
+  SourceFrame frame;
   while (cells.size() < worst.size() && frames.next(frame)) {
     const auto entry = worst.find(frame.index);
     if (entry == worst.end() || frame.image.empty()) continue;

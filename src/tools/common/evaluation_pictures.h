@@ -11,14 +11,15 @@
 namespace chain_tracker {
 
 /// The frame with the tracked parts and box in green (a red note if lost) and the truth in blue.
-cv::Mat drawComparison(const Frame& frame, const TrackedFrame& tracked, const GroundTruth& truth);
+cv::Mat drawComparison(const SourceFrame& frame, const TrackedFrame& tracked,
+                       const GroundTruth& truth);
 
 /// A video of drawComparison(); does nothing if its path is empty.
 class OverlayVideo {
  public:
   explicit OverlayVideo(std::string path);
   /// Throws std::runtime_error naming the file if it cannot be written.
-  void add(const Frame& frame, const TrackedFrame& tracked, const GroundTruth& truth);
+  void add(const SourceFrame& frame, const TrackedFrame& tracked, const GroundTruth& truth);
 
  private:
   std::string path_;
@@ -27,7 +28,7 @@ class OverlayVideo {
 
 /// A filmstrip of the chain tracker's eight worst frames by overlap, or by point error where there
 /// is no overlap, in order of time. `frames` is read from its start. Nothing without truth.
-void writeWorstFrames(FrameSource& frames, const EvaluationResult& result,
-                      const GroundTruth& truth, const std::string& path);
+void writeWorstFrames(FrameSource& frames, const EvaluationResult& result, const GroundTruth& truth,
+                      const std::string& path);
 
 }  // namespace chain_tracker

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation_suite.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -17,6 +13,10 @@
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
 
 #include "chain_tracker/evaluation/ground_truth.h"
 
@@ -84,7 +84,8 @@ int runCommand(const std::vector<std::string>& command, const std::string& log) 
   posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   posix_spawn_file_actions_adddup2(&actions, 1, 2);
   pid_t child = 0;
-  const int failed = posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  const int failed =
+      posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) return -1;
   int status = 0;
@@ -145,8 +146,7 @@ std::vector<std::vector<std::string>> tableRows(const std::vector<SuiteEntry>& e
     }
     const json& s = entry.summary;
     std::vector<std::string> row = {entry.name, s["model"].get<std::string>(),
-                                    std::to_string(s["frames"].get<int>()),
-                                    text(s["mean_iou"], 3)};
+                                    std::to_string(s["frames"].get<int>()), text(s["mean_iou"], 3)};
     for (const std::string& name : baselines) {
       row.push_back(text(s["baselines"][name]["mean_iou"], 3));
     }
