@@ -34,7 +34,7 @@ class SyntheticScene {
   /// Name of the model that tracks this object.
   virtual std::string model() const = 0;
 
-  /// SourceFrame `index`, in [0, options.frames). O(pixels).
+  /// Frame `index`, in [0, options.frames). O(pixels).
   virtual SceneFrame render(int index) const = 0;
 };
 
