@@ -92,17 +92,15 @@ Scores summarize(const std::vector<FrameScore>& frames, double object_length,
   bool was_lost = false;
   for (const FrameScore& frame : frames) {
     ++scores.frames;
-    if (!frame.has_object) {
-      was_lost = was_lost || frame.lost;
-      continue;
-    }
+    const bool found_again = was_lost && !frame.lost && frame.overlap > 0.0;
+    was_lost = frame.lost;
+    point_errors.insert(point_errors.end(), frame.point_errors.begin(), frame.point_errors.end());
+    if (!frame.has_object) continue;
     ++scores.scored_frames;
     overlaps.push_back(frame.overlap);
     distances.push_back(frame.center_error);
-    point_errors.insert(point_errors.end(), frame.point_errors.begin(), frame.point_errors.end());
     scores.lost_frames += frame.lost ? 1 : 0;
-    scores.reacquired += was_lost && !frame.lost && frame.overlap > 0.0 ? 1 : 0;
-    was_lost = frame.lost;
+    scores.reacquired += found_again ? 1 : 0;
   }
   scores.mean_iou = mean(overlaps);
   scores.success_auc = successAuc(overlaps);

@@ -17,7 +17,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
-#include "result_files.h"
+#include "common/result_files.h"
 
 namespace fs = std::filesystem;
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "../result_files.h"
+#include "result_files.h"
 
 namespace chain_tracker {
 namespace {
