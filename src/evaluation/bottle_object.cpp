@@ -59,8 +59,8 @@ Sprite paintBottle(double length, bool plain, cv::RNG& rng) {
   cv::rectangle(coverage, {0, shoulder, columns / 5, rows - 2 * shoulder}, 255, cv::FILLED);
   cv::copyMakeBorder(color, color, kBorder, kBorder, kBorder, kBorder, cv::BORDER_REPLICATE);
   cv::copyMakeBorder(coverage, coverage, kBorder, kBorder, kBorder, kBorder, cv::BORDER_CONSTANT);
-  return {color, coverage, {kBorder + 0.5 * (columns - 1), kBorder + 0.5 * (rows - 1)},
-          kSpritePixels};
+  return {
+      color, coverage, {kBorder + 0.5 * (columns - 1), kBorder + 0.5 * (rows - 1)}, kSpritePixels};
 }
 
 }  // namespace
@@ -77,12 +77,15 @@ SceneObjectPtr makeBottle(const SceneOptions& options, cv::RNG& rng) {
   habits.motion.angle = CV_PI / 2.0;
   habits.clutter = 0;
   habits.shadow = 0.0;
-  return std::make_unique<RigidObject>(
-      paintBottle(length, options.plain, rng),
-      std::vector<cv::Point2d>{{-half, 0.0}, {half, 0.0}},
-      std::vector<cv::Point2d>{{-half, -neck}, {-half, neck}, {shoulder, -side}, {shoulder, side},
-                               {half, -side}, {half, side}},
-      habits);
+  return std::make_unique<RigidObject>(paintBottle(length, options.plain, rng),
+                                       std::vector<cv::Point2d>{{-half, 0.0}, {half, 0.0}},
+                                       std::vector<cv::Point2d>{{-half, -neck},
+                                                                {-half, neck},
+                                                                {shoulder, -side},
+                                                                {shoulder, side},
+                                                                {half, -side},
+                                                                {half, side}},
+                                       habits);
 }
 
 }  // namespace chain_tracker

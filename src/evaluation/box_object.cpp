@@ -50,12 +50,13 @@ void paintLettering(cv::Mat3b& color, cv::RNG& rng) {
   const int rows = color.rows;
   cv::rectangle(color, cv::Rect(0, rows / 14, columns, rows / 5), kNavy, cv::FILLED);
   const double size = columns / 190.0;
-  cv::putText(color, "GOLDEN", {columns / 14, rows * 16 / 100}, cv::FONT_HERSHEY_TRIPLEX, size,
+  cv::putText(color, "GOLDEN", {columns / 14, rows * 155 / 1000}, cv::FONT_HERSHEY_TRIPLEX, size,
               {80.0, 215.0, 250.0}, cvRound(3.0 * size), cv::LINE_AA);
-  cv::putText(color, "flakes", {columns * 35 / 100, rows * 24 / 100},
-              cv::FONT_HERSHEY_COMPLEX_SMALL, 1.5 * size, kCream, cvRound(2.0 * size), cv::LINE_AA);
-  paintPrint({columns / 14, rows * 86 / 100, columns / 2, rows / 10}, std::max(4, rows / 40), kCream,
-             rng, color);
+  cv::putText(color, "flakes", {columns * 40 / 100, rows * 235 / 1000},
+              cv::FONT_HERSHEY_COMPLEX_SMALL, 1.25 * size, kCream, cvRound(1.5 * size),
+              cv::LINE_AA);
+  paintPrint({columns / 14, rows * 86 / 100, columns / 2, rows / 10}, std::max(4, rows / 40),
+             kCream, rng, color);
   const cv::Rect code(columns * 68 / 100, rows * 85 / 100, columns / 4, rows / 10);
   cv::rectangle(color, code, {235.0, 240.0, 240.0}, cv::FILLED);
   for (int x = code.x + 4; x < code.br().x - 5; x += rng.uniform(3, 7)) {
@@ -76,7 +77,7 @@ void paintWear(cv::Mat3b& color, cv::RNG& rng) {
 
 Sprite paintFront(const cv::Size2d& size, bool plain, cv::RNG& rng) {
   const cv::Size pixels(cvRound(size.width * kSpritePixels), cvRound(size.height * kSpritePixels));
-  cv::Mat3b color = paintNoise(pixels, kCardboard, 7.0, rng);
+  cv::Mat3b color = paintMottle(pixels, kCardboard, 7.0, rng);
   if (!plain) {
     paintPicture(color, rng);
     paintLettering(color, rng);
@@ -85,7 +86,8 @@ Sprite paintFront(const cv::Size2d& size, bool plain, cv::RNG& rng) {
   cv::Mat1b coverage(pixels, uchar(255));
   cv::copyMakeBorder(color, color, kBorder, kBorder, kBorder, kBorder, cv::BORDER_REPLICATE);
   cv::copyMakeBorder(coverage, coverage, kBorder, kBorder, kBorder, kBorder, cv::BORDER_CONSTANT);
-  return {color, coverage,
+  return {color,
+          coverage,
           {kBorder + 0.5 * (pixels.width - 1), kBorder + 0.5 * (pixels.height - 1)},
           kSpritePixels};
 }

@@ -16,11 +16,11 @@ namespace {
 constexpr int kLinePoints = 161;
 
 struct StrandTraits {
-  double length = 0.0;      ///< at scale 1 [px]
-  int points = 2;           ///< material points, in equal steps
-  int waves = 3;            ///< of the finest bend, in half periods along the strand
-  double bend = 0.0;        ///< the most that a stretch turns away from the strand's axis [rad]
-  double cycles = 1.5;      ///< how fast the bends change
+  double length = 0.0;  ///< at scale 1 [px]
+  int points = 2;       ///< material points, in equal steps
+  int waves = 3;        ///< of the finest bend, in half periods along the strand
+  double bend = 0.0;    ///< the most that a stretch turns away from the strand's axis [rad]
+  double cycles = 1.5;  ///< how fast the bends change
   StrandLook look;
   SceneHabits habits;
 };
@@ -30,7 +30,8 @@ struct StrandTraits {
 class FreeStrand : public SceneObject {
  public:
   FreeStrand(const StrandTraits& traits, cv::RNG& rng) : traits_(traits) {
-    for (int i = 0; i < traits.waves; ++i) waves_.emplace_back(traits.cycles * (1.0 + 0.2 * i), rng);
+    for (int i = 0; i < traits.waves; ++i)
+      waves_.emplace_back(traits.cycles * (1.0 + 0.2 * i), rng);
   }
 
   SceneHabits habits() const override { return traits_.habits; }
@@ -38,7 +39,8 @@ class FreeStrand : public SceneObject {
 
   ObjectTruth truthAt(const ObjectState& state) const override {
     const std::vector<cv::Point2d> line = lineAt(state.image_from_object, state.bending_time);
-    return {resampleLine(line, traits_.points), {},
+    return {resampleLine(line, traits_.points),
+            {},
             strandBounds(line, traits_.look, state.image_from_object.scale)};
   }
 
@@ -119,16 +121,27 @@ SceneObjectPtr makeCable(const SceneOptions& options, cv::RNG& rng) {
   traits.length = 0.8 * shorterSide(options);
   traits.points = 30;
   traits.waves = 4;
-  traits.bend = 2.0;
+  traits.bend = 2.6;
   const double half_width = 0.0155 * shorterSide(options);
-  traits.look.half_widths = {half_width};
+  for (int i = 0; i <= 60; ++i) {
+    const bool plug = i <= 2 || i >= 58;
+    traits.look.half_widths.push_back(plug ? 1.3 * half_width : half_width);
+  }
   const cv::Size size(cvRound(1.5 * traits.length), std::max(8, cvRound(4.0 * half_width)));
-  traits.look.strip = paintNoise(size, {165.0, 95.0, 35.0}, 8.0, rng);
+  traits.look.strip = paintMottle(size, {165.0, 95.0, 35.0}, 8.0, rng);
   if (!options.plain) {
     weave(traits.look.strip, 7, 0.25);
-    paintBands({{45.0, 190.0, 235.0}, {40.0, 40.0, 45.0}, {215.0, 220.0, 220.0}, {50.0, 55.0, 205.0},
+    paintBands({{45.0, 190.0, 235.0},
+                {40.0, 40.0, 45.0},
+                {215.0, 220.0, 220.0},
+                {50.0, 55.0, 205.0},
                 {80.0, 150.0, 60.0}},
                0.45, size.width / 45, size.width / 15, rng, traits.look.strip);
+  }
+  // Plugs at both ends.
+  for (const int x : {0, size.width * 57 / 60}) {
+    traits.look.strip.colRange(x, x + size.width * 3 / 60).setTo(cv::Scalar(52.0, 50.0, 50.0));
+    traits.look.strip.colRange(x, x + size.width / 60).setTo(cv::Scalar(150.0, 152.0, 150.0));
   }
   shadeAcross(traits.look.strip, 0.25);
   traits.habits.shadow = 0.4;
@@ -145,7 +158,7 @@ SceneObjectPtr makeSuture(const SceneOptions& options, cv::RNG& rng) {
   const double half_width = 0.0034 * shorterSide(options);
   traits.look.half_widths = {half_width};
   const cv::Size size(cvRound(1.5 * traits.length), 8);
-  traits.look.strip = paintNoise(size, {120.0, 45.0, 60.0}, 8.0, rng);
+  traits.look.strip = paintMottle(size, {120.0, 45.0, 60.0}, 8.0, rng);
   if (!options.plain) {
     paintBands({{215.0, 195.0, 190.0}, {70.0, 30.0, 35.0}}, 0.4, size.width / 70, size.width / 30,
                rng, traits.look.strip);

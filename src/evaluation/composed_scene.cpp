@@ -63,7 +63,7 @@ void ComposedScene::addClutter(cv::RNG& rng) {
     const double y = background_.rows * rng.uniform(0.05, 0.95);
     const double angle = rng.uniform(0.0, 2.0 * CV_PI);
     object_->paintDecoy({angle, rng.uniform(0.6, 1.2), {x, y}}, rng, layer);
-    layer.castShadow(options_.shadow.value_or(habits_.shadow), background_);
+    layer.castShadow(shadow(), background_);
     layer.composite(background_);
   }
 }
@@ -83,23 +83,37 @@ ObjectTruth ComposedScene::truthAt(double time) const {
   return truth;
 }
 
-int ComposedScene::exposuresOf(double frame) const {
-  const double blur = options_.blur.value_or(habits_.blur);
-  if (blur <= 0.0) return 1;
-  const ObjectTruth before = truthAt(frame - 0.5 * blur);
-  const ObjectTruth after = truthAt(frame + 0.5 * blur);
-  double farthest = blur * options_.background_speed;
+int ComposedScene::exposuresFor(double distance) {
+  return std::clamp(static_cast<int>(std::ceil(distance / kExposureStep)), 1, kMostExposures);
+}
+
+double ComposedScene::objectTravel(double frame) const {
+  const ObjectTruth before = truthAt(frame - 0.5 * blur());
+  const ObjectTruth after = truthAt(frame + 0.5 * blur());
+  double farthest = 0.0;
   for (size_t i = 0; i < before.points.size(); ++i) {
     farthest = std::max(farthest, cv::norm(after.points[i] - before.points[i]));
   }
-  return std::clamp(static_cast<int>(std::ceil(farthest / kExposureStep)), 2, kMostExposures);
+  return farthest;
+}
+
+double ComposedScene::surroundingsTravel(double frame) const {
+  const Similarity before = motion_.at(frame - 0.5 * blur()).image_from_object;
+  const Similarity after = motion_.at(frame + 0.5 * blur()).image_from_object;
+  double farthest = blur() * options_.background_speed;
+  const double radius = object_->radius();
+  for (const cv::Point2d& rim : {cv::Point2d(radius, 0.0), cv::Point2d(-radius, 0.0),
+                                 cv::Point2d(0.0, radius), cv::Point2d(0.0, -radius)}) {
+    farthest = std::max(farthest, cv::norm(after.apply(rim) - before.apply(rim)));
+  }
+  return farthest;
 }
 
 cv::Mat3b ComposedScene::backgroundAt(double frame) const {
   if (options_.background_speed <= 0.0) return background_.clone();
   // Time runs such that the fastest shift is the one asked for; each axis has its share of it.
-  const double rate = options_.background_speed / std::sqrt(2.0) /
-                      (margin_ * background_x_.fastestStep());
+  const double rate =
+      options_.background_speed / std::sqrt(2.0) / (margin_ * background_x_.fastestStep());
   const double time = frame / kFramesPerTime * rate;
   const cv::Matx23d moved(1.0, 0.0, margin_ * background_x_.at(time) - margin_, 0.0, 1.0,
                           margin_ * background_y_.at(time) - margin_);
@@ -116,40 +130,47 @@ Layer ComposedScene::occludersAt(double frame) const {
   return layer;
 }
 
-cv::Mat3b ComposedScene::compose(double frame, bool with_object) const {
+cv::Mat3b ComposedScene::paintSurroundings(double frame) const {
   cv::Mat3b canvas = backgroundAt(frame);
-  const ObjectState state = motion_.at(frame);
-  const double shadow = options_.shadow.value_or(habits_.shadow);
   Layer companions(options_.size);
-  object_->paintCompanions(state, companions);
-  companions.castShadow(shadow, canvas);
+  object_->paintCompanions(motion_.at(frame), companions);
+  companions.castShadow(shadow(), canvas);
   companions.composite(canvas);
-  if (!with_object) return canvas;
-  Layer object(options_.size);
-  object_->paint(state, object);
-  object.castShadow(shadow, canvas);
-  object.composite(canvas);
-  if (options_.occlusions > 0) {
-    const Layer occluders = occludersAt(frame);
-    occluders.castShadow(shadow, canvas);
-    occluders.composite(canvas);
-  }
   return canvas;
 }
 
-cv::Mat3b ComposedScene::takePicture(int index, bool with_object) const {
-  const int exposures = exposuresOf(index);
-  cv::Mat3b image;
-  if (exposures == 1) {
-    image = compose(index, with_object);
-  } else {
-    const double blur = options_.blur.value_or(habits_.blur);
-    Exposure exposure(options_.size);
-    for (int i = 0; i < exposures; ++i) {
-      exposure.add(compose(index + blur * ((i + 0.5) / exposures - 0.5), with_object));
-    }
-    image = exposure.mean();
+void ComposedScene::paintObject(double frame, cv::Mat3b& canvas) const {
+  Layer object(options_.size);
+  object_->paint(motion_.at(frame), object);
+  object.castShadow(shadow(), canvas);
+  object.composite(canvas);
+  if (options_.occlusions < 1) return;
+  const Layer occluders = occludersAt(frame);
+  occluders.castShadow(shadow(), canvas);
+  occluders.composite(canvas);
+}
+
+cv::Mat3b ComposedScene::expose(double frame, bool with_object) const {
+  const int surroundings_exposures = exposuresFor(surroundingsTravel(frame));
+  // The same moments with and without the object, so that the surroundings are the same.
+  const int exposures = std::max(surroundings_exposures, exposuresFor(objectTravel(frame)));
+  const auto moment = [&](int i, int count) { return frame + blur() * ((i + 0.5) / count - 0.5); };
+  Exposure exposure(options_.size);
+  cv::Mat3b surroundings;
+  for (int i = 0, painted = -1; i < exposures; ++i) {
+    const int due = i * surroundings_exposures / exposures;
+    if (due != painted) surroundings = paintSurroundings(moment(due, surroundings_exposures));
+    painted = due;
+    cv::Mat3b canvas = surroundings.clone();
+    if (with_object) paintObject(moment(i, exposures), canvas);
+    if (exposures == 1) return canvas;
+    exposure.add(canvas);
   }
+  return exposure.mean();
+}
+
+cv::Mat3b ComposedScene::takePicture(int index, bool with_object) const {
+  cv::Mat3b image = expose(index, with_object);
   illumination_.apply(index / kFramesPerTime, image);
   cv::RNG noise(options_.seed * 7919U + static_cast<std::uint32_t>(index) + 1U);
   if (options_.grey) {

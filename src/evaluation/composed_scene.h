@@ -30,10 +30,19 @@ class ComposedScene : public SyntheticScene {
  private:
   ObjectTruth truthAt(double time) const;
   void addClutter(cv::RNG& rng);
-  int exposuresOf(double frame) const;
+  /// Number of pictures that a motion of `distance` px during the exposure needs.
+  static int exposuresFor(double distance);
+  double blur() const { return options_.blur.value_or(habits_.blur); }
+  double shadow() const { return options_.shadow.value_or(habits_.shadow); }
+  /// How far things move while the shutter is open [px].
+  double objectTravel(double frame) const;
+  double surroundingsTravel(double frame) const;
+
   cv::Mat3b backgroundAt(double frame) const;
   Layer occludersAt(double frame) const;
-  cv::Mat3b compose(double frame, bool with_object) const;
+  cv::Mat3b paintSurroundings(double frame) const;
+  void paintObject(double frame, cv::Mat3b& canvas) const;
+  cv::Mat3b expose(double frame, bool with_object) const;
   cv::Mat3b takePicture(int index, bool with_object) const;
 
   SceneOptions options_;

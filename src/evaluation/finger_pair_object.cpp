@@ -19,7 +19,7 @@ constexpr double kHalfWidth = 0.038;
 constexpr double kSpread[2] = {-0.42, 0.38};
 constexpr double kSwing = 0.35;
 constexpr double kBend = 0.75;
-constexpr int kLinePoints = 41;
+constexpr int kLinePoints = 22;
 constexpr int kStripRows = 64;
 
 const cv::Scalar kSkin(138.0, 165.0, 214.0);
@@ -78,7 +78,7 @@ void paintNail(int length, cv::Mat3b& strip) {
 StrandLook paintFinger(double length, double half_width, cv::RNG& rng) {
   StrandLook look;
   const int columns = cvRound(1.5 * length);
-  look.strip = paintNoise({columns, kStripRows}, kSkin, 7.0, rng);
+  look.strip = paintMottle({columns, kStripRows}, kSkin, 7.0, rng);
   addGrain(5.0, 1.2, rng, look.strip);
   const int knuckle = cvRound(columns * kDistal / (kDistal + kProximal));
   paintCreases(knuckle, 5, look.strip, rng);
@@ -105,7 +105,7 @@ struct Hand {
 
 Hand paintHand(double unit, cv::RNG& rng) {
   Hand hand;
-  hand.back.strip = paintNoise({240, 160}, kSkin, 9.0, rng);
+  hand.back.strip = paintMottle({240, 160}, kSkin, 9.0, rng);
   addGrain(4.0, 1.5, rng, hand.back.strip);
   cv::Mat1b tendons(hand.back.strip.size(), uchar(0));
   for (const double y : {0.25, 0.45, 0.66}) {
@@ -117,13 +117,29 @@ Hand paintHand(double unit, cv::RNG& rng) {
   for (const double width : {0.055, 0.098, 0.112, 0.113, 0.11, 0.103, 0.092, 0.08, 0.072, 0.07}) {
     hand.back.half_widths.push_back(width * unit);
   }
-  hand.sleeve.strip = paintNoise({120, 160}, {95.0, 70.0, 55.0}, 10.0, rng);
+  hand.sleeve.strip = paintMottle({120, 160}, {95.0, 70.0, 55.0}, 10.0, rng);
   for (int x = 0; x < 120; x += 8) hand.sleeve.strip.colRange(x, x + 2) *= 0.75;
   addGrain(7.0, 0.8, rng, hand.sleeve.strip);
   shadeSkin(hand.sleeve.strip);
   hand.sleeve.half_widths = {0.092 * unit, 0.1 * unit, 0.11 * unit};
   hand.folded = paintFinger(0.16 * unit, 1.05 * kHalfWidth * unit, rng);
   return hand;
+}
+
+/// Bound in leather of the skin's colour, out of focus as its neighbours.
+Sprite paintBookSpine(double unit, cv::RNG& rng) {
+  const cv::Size size(cvRound(unit * rng.uniform(0.06, 0.12)), cvRound(unit * 0.3));
+  cv::Mat3b color = paintMottle(size, kSkin, 7.0, rng);
+  for (const int percent : {20, 32, 80}) {
+    cv::rectangle(color, cv::Rect(0, size.height * percent / 100, size.width, size.height / 30),
+                  {85.0, 105.0, 165.0}, cv::FILLED);
+  }
+  for (int x = 0; x < size.width; ++x) color.col(x) *= 1.1 - 0.4 * x / size.width;
+  cv::Mat1b coverage(size, uchar(0));
+  cv::rectangle(coverage, cv::Rect(6, 6, size.width - 12, size.height - 12), 255, cv::FILLED);
+  cv::GaussianBlur(color, color, {0, 0}, 2.0);
+  cv::GaussianBlur(coverage, coverage, {0, 0}, 2.0);
+  return {color, coverage, {0.5 * size.width, 0.5 * size.height}, 1.0};
 }
 
 class FingerPair : public SceneObject {
@@ -179,11 +195,8 @@ class FingerPair : public SceneObject {
   }
 
   void paintDecoy(const Similarity& image_from_decoy, cv::RNG& rng, Layer& layer) const override {
-    const double length = unit_ * rng.uniform(0.08, 0.25);
-    paintStrand(resampleLine({image_from_decoy.apply({-0.5 * length, 0.0}),
-                              image_from_decoy.apply({0.5 * length, 0.0})},
-                             9),
-                hand_.folded, image_from_decoy.scale * rng.uniform(0.8, 1.3), layer);
+    paintBookSpine(unit_, rng)
+        .paint({0.0, image_from_decoy.scale, image_from_decoy.translation}, layer);
   }
 
  private:
@@ -210,7 +223,7 @@ class FingerPair : public SceneObject {
     const size_t tip = finger == 0 ? 0 : 4;
     const size_t knuckle = finger == 0 ? 1 : 3;
     // Equal steps along the finger: the distal phalanx is a little shorter.
-    const int distal = cvRound(kLinePoints * kDistal / (kDistal + kProximal));
+    const int distal = 1 + cvRound((kLinePoints - 1) * kDistal / (kDistal + kProximal));
     std::vector<cv::Point2d> line = resampleLine({joints[tip], joints[knuckle]}, distal);
     const std::vector<cv::Point2d> rest =
         resampleLine({joints[knuckle], joints[2]}, kLinePoints - distal + 1);

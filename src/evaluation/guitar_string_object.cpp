@@ -29,10 +29,10 @@ StrandLook paintString(double length, bool plain, const cv::Scalar& metal, doubl
                        cv::RNG& rng) {
   StrandLook look;
   look.half_widths = {half_width};
-  look.strip = paintNoise({cvRound(2.0 * length), 8}, metal, plain ? 3.0 : 16.0, rng);
+  look.strip = paintMottle({cvRound(2.0 * length), 8}, metal, plain ? 3.0 : 16.0, rng);
   if (!plain) {
     for (int x = 0; x < look.strip.cols; ++x) {
-      look.strip.col(x) *= 0.85 + 0.3 * std::sin(2.0 * CV_PI * x / 8.0);
+      look.strip.col(x) *= 0.95 + 0.12 * std::sin(2.0 * CV_PI * x / 8.0);
     }
     for (int patch = 0; patch < 14; ++patch) {
       const int from = rng.uniform(0, look.strip.cols - 40);
@@ -46,9 +46,7 @@ StrandLook paintString(double length, bool plain, const cv::Scalar& metal, doubl
 /// Frets, inlays and the nut on the neck, which ends at column `body`.
 void paintNeck(const cv::Rect& neck, int nut, double length, cv::RNG& rng, cv::Mat3b& color) {
   paintWood(neck.size(), {38.0, 52.0, 78.0}, 11.0, rng).copyTo(color(neck));
-  const auto fret = [&](int n) {
-    return nut + cvRound(length * (1.0 - std::pow(2.0, -n / 12.0)));
-  };
+  const auto fret = [&](int n) { return nut + cvRound(length * (1.0 - std::pow(2.0, -n / 12.0))); };
   for (int n = 1; fret(n) < neck.br().x; ++n) {
     const int x = fret(n);
     cv::rectangle(color, cv::Rect(x + 3, neck.y, 2, neck.height), {20.0, 28.0, 42.0}, cv::FILLED);
@@ -130,8 +128,8 @@ class GuitarString : public SceneObject {
 
   ObjectTruth truthAt(const ObjectState& state) const override {
     const std::vector<cv::Point2d> line = lineAt(state);
-    return {resampleLine(line, kPoints), {},
-            strandBounds(line, look_, state.image_from_object.scale)};
+    return {
+        resampleLine(line, kPoints), {}, strandBounds(line, look_, state.image_from_object.scale)};
   }
 
   void paint(const ObjectState& state, Layer& layer) const override {
@@ -143,9 +141,9 @@ class GuitarString : public SceneObject {
     guitar_.paint(pose, layer);
     for (int i = 0; i < others_; ++i) {
       const double y = kSpacing * length_ * kOthers[i];
-      paintStrand(resampleLine({pose.apply({-0.5 * length_, y}), pose.apply({0.5 * length_, y})},
-                               9),
-                  other_look_, pose.scale * (1.0 - 0.12 * kOthers[i]), layer);
+      paintStrand(
+          resampleLine({pose.apply({-0.5 * length_, y}), pose.apply({0.5 * length_, y})}, 9),
+          other_look_, pose.scale * (1.0 - 0.12 * kOthers[i]), layer);
     }
   }
 
@@ -158,9 +156,8 @@ class GuitarString : public SceneObject {
     const double frames = state.bending_time * kFramesPerTime;
     // Plucked again and again: a fast attack, then it dies away.
     const double since = frames - kFramesPerPluck * std::floor(frames / kFramesPerPluck);
-    const double strength =
-        std::min(1.0, since / 5.0) * std::exp(-1.8 * since / kFramesPerPluck) *
-        std::clamp((kFramesPerPluck - since) / 10.0, 0.0, 1.0);
+    const double strength = std::min(1.0, since / 5.0) * std::exp(-1.8 * since / kFramesPerPluck) *
+                            std::clamp((kFramesPerPluck - since) / 10.0, 0.0, 1.0);
     std::vector<cv::Point2d> line;
     for (int k = 0; k < kLinePoints; ++k) {
       const double along = k / (kLinePoints - 1.0);

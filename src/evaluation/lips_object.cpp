@@ -28,9 +28,7 @@ struct Mouth {
   double upper;
   double lower;
 
-  static double arch(double u, double power) {
-    return std::pow(std::max(0.0, 1.0 - u * u), power);
-  }
+  static double arch(double u, double power) { return std::pow(std::max(0.0, 1.0 - u * u), power); }
   double upperRim(double u) const {
     const double bow = 1.0 - 0.22 * std::exp(-std::pow(u / 0.17, 2.0));
     return -0.3 * opening * arch(u, 1.0) - upper * arch(u, 0.8) * bow;
@@ -46,19 +44,59 @@ struct Mouth {
   }
 };
 
+/// A wide Gaussian blur, computed coarsely.
+void soften(double sigma, cv::Mat1b& weight) {
+  const double step = std::max(1.0, sigma / 3.0);
+  const cv::Size coarse(std::max(1, cvRound(weight.cols / step)),
+                        std::max(1, cvRound(weight.rows / step)));
+  cv::Mat1b small;
+  cv::resize(weight, small, coarse, 0.0, 0.0, cv::INTER_AREA);
+  cv::GaussianBlur(small, small, {0, 0}, std::max(0.5, sigma / step));
+  cv::resize(small, weight, weight.size(), 0.0, 0.0, cv::INTER_CUBIC);
+}
+
+/// Fills what the face leaves free: a neck `half` to either side of the middle, else hair.
+void putNeckAndHairBehind(cv::Mat1b& face, int half, cv::RNG& rng, cv::Mat3b& color) {
+  const cv::Size turned(color.rows, color.cols);
+  cv::Mat3b hair;
+  cv::transpose(paintWood(turned, {32.0, 42.0, 62.0}, 16.0, rng), hair);
+  const cv::Rect neck(color.cols / 2 - half, color.rows / 2, 2 * half, color.rows / 2);
+  cv::Mat3b skin = paintMottle(neck.size(), 0.62 * kSkin, 6.0, rng);
+  for (int x = 0; x < skin.cols; ++x) {
+    const double across = 2.0 * x / skin.cols - 1.0;
+    skin.col(x) *= 1.0 - 0.5 * across * across;
+  }
+  skin.copyTo(hair(neck));
+  cv::GaussianBlur(face, face, {0, 0}, 1.5);
+  const cv::Mat3b front = color.clone();
+  color = hair;
+  for (int row = 0; row < color.rows; ++row) {
+    for (int x = 0; x < color.cols; ++x) {
+      const double share = face(row, x) / 255.0;
+      color(row, x) = (1.0 - share) * cv::Vec3d(color(row, x)) + share * cv::Vec3d(front(row, x));
+    }
+  }
+}
+
 /// Skin of a face from below the eyes to the chin, around the mouth at its centre.
 Sprite paintFace(double unit, cv::RNG& rng) {
   const int side = cvRound(2.4 * unit * kFacePixels);
   const cv::Point mouth(side / 2, side / 2);
   const auto px = [&](double fraction) { return cvRound(fraction * unit * kFacePixels); };
-  cv::Mat3b color = paintNoise({side, side}, kSkin, 6.0, rng);
+  cv::Mat3b color = paintMottle({side, side}, kSkin, 6.0, rng);
   addGrain(4.0, 1.3, rng, color);
   const auto shadow = [&](const cv::Point& at, const cv::Size& half, double angle, int strength,
                           double softness, const cv::Scalar& tone) {
-    cv::Mat1b weight(color.size(), uchar(0));
-    cv::ellipse(weight, mouth + at, half, angle, 0.0, 360.0, strength, cv::FILLED);
-    cv::GaussianBlur(weight, weight, {0, 0}, px(softness));
-    tint(weight, tone, color);
+    const cv::Size reach = half + cv::Size(3 * px(softness), 3 * px(softness));
+    const int radius = std::max(reach.width, reach.height);
+    const cv::Rect area =
+        cv::Rect(mouth + at - cv::Point(radius, radius), cv::Size(2 * radius, 2 * radius)) &
+        cv::Rect(cv::Point(), color.size());
+    cv::Mat1b weight(area.size(), uchar(0));
+    cv::ellipse(weight, mouth + at - area.tl(), half, angle, 0.0, 360.0, strength, cv::FILLED);
+    soften(px(softness), weight);
+    cv::Mat3b part = color(area);
+    tint(weight, tone, part);
   };
   const cv::Scalar dim(90.0, 115.0, 170.0);
   shadow({0, px(0.2)}, {px(0.15), px(0.03)}, 0.0, 150, 0.025, dim);
@@ -78,13 +116,18 @@ Sprite paintFace(double unit, cv::RNG& rng) {
   cv::Mat1b far(color.size(), uchar(190));
   cv::ellipse(far, mouth - cv::Point(0, px(0.35)), {px(0.56), px(0.86)}, 0.0, 0.0, 360.0, 0,
               cv::FILLED);
-  cv::GaussianBlur(far, far, {0, 0}, px(0.1));
+  soften(px(0.1), far);
   tint(far, {45.0, 62.0, 105.0}, color);
   shadeUnevenly(0.3, rng, color);
+  cv::Mat1b face(color.size(), uchar(0));
+  const cv::Point middle = mouth - cv::Point(0, px(0.35));
+  cv::ellipse(face, middle, {px(0.68), px(0.98)}, 0.0, 0.0, 360.0, 255, cv::FILLED, cv::LINE_AA);
   cv::Mat1b coverage(color.size(), uchar(0));
-  cv::ellipse(coverage, mouth - cv::Point(0, px(0.35)), {px(0.68), px(0.98)}, 0.0, 0.0, 360.0, 255,
-              cv::FILLED);
-  cv::GaussianBlur(coverage, coverage, {0, 0}, 1.5);
+  cv::ellipse(coverage, middle, {px(0.86), px(1.18)}, 0.0, 0.0, 360.0, 255, cv::FILLED,
+              cv::LINE_AA);
+  putNeckAndHairBehind(face, px(0.4), rng, color);
+  cv::rectangle(coverage, cv::Rect(mouth.x - px(0.4), mouth.y, px(0.8), side / 2), 255, cv::FILLED);
+  cv::GaussianBlur(coverage, coverage, {0, 0}, 2.0);
   return {color, coverage, {0.5 * (side - 1), 0.5 * (side - 1)}, kFacePixels};
 }
 
@@ -93,7 +136,7 @@ class Lips : public SceneObject {
   Lips(const SceneOptions& options, cv::RNG& rng)
       : unit_(shorterSide(options)),
         face_(paintFace(unit_, rng)),
-        skin_(paintNoise({256, 64}, {105.0, 100.0, 200.0}, 9.0, rng)),
+        skin_(paintMottle({256, 64}, {105.0, 100.0, 200.0}, 9.0, rng)),
         opening_(9.0, rng),
         width_(6.0, rng) {
     for (int crease = 0; crease < 70; ++crease) {
@@ -106,6 +149,7 @@ class Lips : public SceneObject {
   SceneHabits habits() const override {
     SceneHabits habits;
     habits.motion = {{0.5, 0.56}, {0.12, 0.1}, 0.0, 0.4};
+    habits.clutter = 0;
     habits.shadow = 0.0;
     return habits;
   }
@@ -164,10 +208,10 @@ class Lips : public SceneObject {
     const cv::Rect region = pixelsWithin(uprightBounds(corners), 2.0, layer);
     if (region.empty()) return;
     cv::Mat4b piece(region.size(), cv::Vec4b::all(0));
+    const ObjectGrid grid(pose, region.tl());
     for (int y = 0; y < region.height; ++y) {
       for (int x = 0; x < region.width; ++x) {
-        const cv::Point2d at = pose.applyInverse(cv::Point2d(region.x + x, region.y + y));
-        piece(y, x) = pixelAt(mouth, at, pose.scale);
+        piece(y, x) = pixelAt(mouth, grid.at(x, y), pose.scale);
       }
     }
     layer.paint(piece, region.tl());
@@ -200,9 +244,9 @@ class Lips : public SceneObject {
     const int x = std::clamp(cvRound((0.5 + 0.5 * u) * (skin_.cols - 1)), 0, skin_.cols - 1);
     const int y = cvRound((above ? depth : 1.0 - depth) * (skin_.rows - 1));
     const double bulge = above ? 0.88 - 0.25 * depth : 0.82 + 0.5 * depth * (1.1 - depth);
-    const double shine =
-        above ? 0.0
-              : 45.0 * std::exp(-std::pow((depth - 0.55) / 0.16, 2.0) - std::pow((u + 0.1) / 0.4, 2.0));
+    const double shine = above ? 0.0
+                               : 45.0 * std::exp(-std::pow((depth - 0.55) / 0.16, 2.0) -
+                                                 std::pow((u + 0.1) / 0.4, 2.0));
     const double crease = 1.0 - 0.35 * std::pow(depth, 8.0);
     return cv::Vec3d(skin_(y, x)) * bulge * crease + cv::Vec3d::all(shine);
   }
@@ -227,8 +271,8 @@ class Lips : public SceneObject {
 
 }  // namespace
 
-/// A speaking mouth in a face. 12 points around the lips' outline, clockwise from its left corner in
-/// the picture.
+/// A speaking mouth in a face. 12 points around the lips' outline, clockwise from its left corner
+/// in the picture.
 SceneObjectPtr makeLips(const SceneOptions& options, cv::RNG& rng) {
   return std::make_unique<Lips>(options, rng);
 }

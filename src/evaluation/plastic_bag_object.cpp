@@ -15,7 +15,7 @@ constexpr int kWaves = 6;         ///< of its outline
 constexpr int kTextureSide = 320;
 /// Directions in which the outline is computed; between them it is interpolated.
 constexpr int kDirections = 360;
-constexpr double kOpacity = 0.93;
+constexpr double kOpacity = 0.9;
 
 /// Crumpled film: facets of light between sharp folds.
 cv::Mat3b paintFilm(bool plain, cv::RNG& rng) {
@@ -34,7 +34,7 @@ cv::Mat3b paintFilm(bool plain, cv::RNG& rng) {
     rng.fill(coarse, cv::RNG::NORMAL, 0.0, 1.0);
     cv::Mat1f fine;
     cv::resize(coarse, fine, size, 0.0, 0.0, cv::INTER_CUBIC);
-    folds += cv::abs(fine) / (1.0 + 0.8 * octave);
+    folds += cv::abs(fine) / (1.0 + 1.8 * octave);
   }
   cv::Mat1f across;
   cv::Mat1f down;
@@ -43,11 +43,12 @@ cv::Mat3b paintFilm(bool plain, cv::RNG& rng) {
   for (int row = 0; row < size.height; ++row) {
     for (int x = 0; x < size.width; ++x) {
       const double slope = 0.8 * across(row, x) + 1.0 * down(row, x);
-      const double light = std::clamp(0.82 - 0.55 * slope + 0.1 * folds(row, x), 0.42, 1.25);
-      for (int c = 0; c < 3; ++c) film(row, x)[c] = cv::saturate_cast<uchar>(film(row, x)[c] * light);
+      const double light = std::clamp(0.86 - 0.42 * slope + 0.08 * folds(row, x), 0.5, 1.22);
+      for (int c = 0; c < 3; ++c)
+        film(row, x)[c] = cv::saturate_cast<uchar>(film(row, x)[c] * light);
     }
   }
-  cv::GaussianBlur(film, film, {0, 0}, 0.8);
+  cv::GaussianBlur(film, film, {0, 0}, 1.0);
   return film;
 }
 
@@ -129,16 +130,18 @@ class PlasticBag : public SceneObject {
     const cv::Rect region = pixelsWithin(uprightBounds(outline.points(sized)), 2.0, layer);
     if (region.empty()) return;
     cv::Mat4b piece(region.size(), cv::Vec4b::all(0));
+    const ObjectGrid grid(sized, region.tl());
     const cv::Point2d sway(0.12 * sway_[0].at(time), 0.12 * sway_[1].at(time));
     for (int y = 0; y < region.height; ++y) {
       for (int x = 0; x < region.width; ++x) {
-        const cv::Point2d at = sized.applyInverse(cv::Point2d(region.x + x, region.y + y));
-        const double distance = cv::norm(at);
+        const cv::Point2d at = grid.at(x, y);
+        const double distance = std::sqrt(at.dot(at));
         const double rim = outline.at(directionOf(at));
         const double covered = std::clamp((rim - distance) * sized.scale + 0.5, 0.0, 1.0);
         if (covered <= 0.0) continue;
-        piece(y, x) = coveredPixel(filmAt(at / rim, sway) * (1.05 - 0.25 * std::pow(distance / rim, 6)),
-                                   kOpacity * covered);
+        const double outwards = at.dot(at) / (rim * rim);
+        const double light = 1.05 - 0.25 * outwards * outwards * outwards;
+        piece(y, x) = coveredPixel(light * filmAt(at / rim, sway), kOpacity * covered);
       }
     }
     layer.paint(piece, region.tl());
@@ -170,8 +173,8 @@ class PlasticBag : public SceneObject {
 
 }  // namespace
 
-/// A shopping bag that the wind deforms. Its points are the corners of its upright box, from the top
-/// left one clockwise: nothing on it keeps its shape.
+/// A shopping bag that the wind deforms. Its points are the corners of its upright box, from the
+/// top left one clockwise: nothing on it keeps its shape.
 SceneObjectPtr makePlasticBag(const SceneOptions& options, cv::RNG& rng) {
   return std::make_unique<PlasticBag>(options, rng);
 }

@@ -33,8 +33,7 @@ void RigidObject::paint(const ObjectState& state, Layer& layer) const {
   sprite_.paint(state.image_from_object, layer);
 }
 
-void RigidObject::paintDecoy(const Similarity& image_from_decoy, cv::RNG& rng,
-                             Layer& layer) const {
+void RigidObject::paintDecoy(const Similarity& image_from_decoy, cv::RNG& rng, Layer& layer) const {
   sprite_.piece(rng.uniform(0.3, 0.5), rng).paint(image_from_decoy, layer);
 }
 

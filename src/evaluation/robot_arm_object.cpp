@@ -61,8 +61,7 @@ void paintJoint(LinkCanvas& canvas, double x, double radius) {
              {205.0, 203.0, 200.0}, LinkCanvas::side(0.12 * radius), cv::LINE_AA);
   for (int bolt = 0; bolt < 6; ++bolt) {
     const double phi = CV_PI / 3.0 * bolt + 0.3;
-    const cv::Point at =
-        canvas.at(x + 0.5 * radius * std::cos(phi), 0.5 * radius * std::sin(phi));
+    const cv::Point at = canvas.at(x + 0.5 * radius * std::cos(phi), 0.5 * radius * std::sin(phi));
     cv::circle(canvas.color, at, LinkCanvas::side(0.08 * radius), kDark, cv::FILLED, cv::LINE_AA);
   }
 }
@@ -81,7 +80,7 @@ void fillTaper(cv::Mat& image, const LinkCanvas& canvas, const LinkShape& shape,
 /// A cast link: painted metal, a darker rib, hazard stripes, a decal.
 Sprite paintLink(const LinkShape& shape, cv::RNG& rng) {
   LinkCanvas canvas(shape);
-  canvas.color = paintNoise(canvas.size, kPaint, 6.0, rng);
+  canvas.color = paintMottle(canvas.size, kPaint, 6.0, rng);
   fillTaper(canvas.color, canvas, shape, 0.3 * shape.length, 0.82 * shape.length, 0.5,
             {20.0, 95.0, 180.0});
   fillTaper(canvas.color, canvas, shape, 0.33 * shape.length, 0.79 * shape.length, 0.38,
@@ -112,22 +111,25 @@ Sprite paintLink(const LinkShape& shape, cv::RNG& rng) {
 /// The wrist with a gripper whose jaws end at the link's end.
 Sprite paintGripper(const LinkShape& shape, cv::RNG& rng) {
   LinkCanvas canvas(shape);
-  canvas.color = paintNoise(canvas.size, kSteel, 8.0, rng);
+  canvas.color = paintMottle(canvas.size, kSteel, 8.0, rng);
   const double palm = 0.55 * shape.length;
   fillTaper(canvas.coverage, canvas, shape, 0.0, palm, 1.0, cv::Scalar(255.0));
   cv::circle(canvas.coverage, canvas.at(0.0, 0.0), canvas.side(shape.start_radius), 255, cv::FILLED,
              cv::LINE_AA);
   for (const double side : {-1.0, 1.0}) {
     const double r = shape.end_radius;
-    const std::vector<cv::Point> jaw{
-        canvas.at(0.5 * palm, side * 0.6 * r), canvas.at(palm, side * 1.35 * r),
-        canvas.at(0.8 * shape.length, side * 1.2 * r), canvas.at(shape.length, side * 0.28 * r),
-        canvas.at(shape.length, 0.0), canvas.at(0.78 * shape.length, side * 0.45 * r),
-        canvas.at(palm, side * 0.5 * r)};
+    const std::vector<cv::Point> jaw{canvas.at(0.5 * palm, side * 0.6 * r),
+                                     canvas.at(palm, side * 1.35 * r),
+                                     canvas.at(0.8 * shape.length, side * 1.2 * r),
+                                     canvas.at(shape.length, side * 0.28 * r),
+                                     canvas.at(shape.length, 0.0),
+                                     canvas.at(0.78 * shape.length, side * 0.45 * r),
+                                     canvas.at(palm, side * 0.5 * r)};
     cv::fillPoly(canvas.coverage, std::vector<std::vector<cv::Point>>{jaw}, 255, cv::LINE_AA);
   }
-  cv::rectangle(canvas.color, cv::Rect(canvas.at(0.35 * shape.length, -shape.start_radius),
-                                       canvas.at(0.45 * shape.length, shape.start_radius)),
+  cv::rectangle(canvas.color,
+                cv::Rect(canvas.at(0.35 * shape.length, -shape.start_radius),
+                         canvas.at(0.45 * shape.length, shape.start_radius)),
                 kPaint, cv::FILLED);
   for (int row = 0; row < canvas.size.height; ++row) {
     const double across = 2.0 * row / canvas.size.height - 1.0;
@@ -139,23 +141,47 @@ Sprite paintGripper(const LinkShape& shape, cv::RNG& rng) {
   return {canvas.color, canvas.coverage, canvas.origin, kSpritePixels};
 }
 
-/// The pedestal: hangs below the origin, in the object's frame (y down while the arm is at rest).
+/// The column that it stands on: goes down from the origin, out of the picture.
 Sprite paintPedestal(double size, cv::RNG& rng) {
   const int side = cvRound(2.0 * size * kSpritePixels);
-  cv::Mat3b color = paintNoise({side, side}, {85.0, 82.0, 80.0}, 9.0, rng);
-  cv::Mat1b coverage(side, side, uchar(0));
+  const int height = side * 2;
+  cv::Mat3b color = paintMottle({side, height}, {85.0, 82.0, 80.0}, 7.0, rng);
+  cv::Mat1b coverage(height, side, uchar(0));
   const int middle = side / 2;
   const std::vector<cv::Point> body{{middle - side / 6, middle},
                                     {middle + side / 6, middle},
-                                    {middle + side / 4, side - 5},
-                                    {middle - side / 4, side - 5}};
+                                    {middle + side / 5, height - 1},
+                                    {middle - side / 5, height - 1}};
   cv::fillConvexPoly(coverage, body, 255, cv::LINE_AA);
   cv::circle(coverage, {middle, middle}, side / 6, 255, cv::FILLED, cv::LINE_AA);
-  cv::rectangle(color, cv::Rect(0, side * 4 / 5, side, side / 30), {30.0, 140.0, 235.0},
-                cv::FILLED);
+  for (const int y : {side * 3 / 4, side * 5 / 4, side * 7 / 4}) {
+    cv::rectangle(color, cv::Rect(0, y, side, side / 40), {55.0, 52.0, 50.0}, cv::FILLED);
+  }
+  cv::rectangle(color, cv::Rect(0, side * 5 / 6, side, side / 16), kPaint, cv::FILLED);
   for (int x = 0; x < side; ++x) color.col(x) *= 1.25 - 0.6 * x / side;
   addGrain(4.0, 0.8, rng, color);
-  return {color, coverage, {0.5 * (side - 1), 0.5 * (side - 1)}, kSpritePixels};
+  return {color, coverage, {0.5 * side, 0.5 * side}, kSpritePixels};
+}
+
+/// A guard rail in the arm's paint, with posts.
+Sprite paintBarrier(double unit, cv::RNG& rng) {
+  const cv::Size size(cvRound(unit * rng.uniform(0.4, 0.7)), cvRound(unit * 0.3));
+  cv::Mat3b color = paintMottle(size, kPaint, 6.0, rng);
+  cv::Mat1b coverage(size, uchar(0));
+  const int rail = size.height / 6;
+  for (const int y : {rail / 2, rail * 5 / 2}) {
+    cv::rectangle(coverage, cv::Rect(3, y, size.width - 6, rail), 255, cv::FILLED);
+  }
+  for (const int x : {size.width / 8, size.width * 6 / 8}) {
+    cv::rectangle(coverage, cv::Rect(x, rail / 2, rail, size.height - rail), 255, cv::FILLED);
+    cv::rectangle(color, cv::Rect(x, rail * 4, rail, size.height), kSteel, cv::FILLED);
+  }
+  for (int x = -size.height; x < size.width; x += 3 * rail) {
+    cv::line(color, {x, 3 * rail / 2}, {x + rail, rail / 2}, kDark, std::max(1, rail / 2));
+  }
+  cv::GaussianBlur(color, color, {0, 0}, 1.5);
+  cv::GaussianBlur(coverage, coverage, {0, 0}, 1.5);
+  return {color, coverage, {0.5 * size.width, 0.5 * size.height}, 1.0};
 }
 
 class RobotArm : public SceneObject {
@@ -207,8 +233,8 @@ class RobotArm : public SceneObject {
   }
 
   void paintDecoy(const Similarity& image_from_decoy, cv::RNG& rng, Layer& layer) const override {
-    links_[static_cast<size_t>(rng.uniform(0, kLinks))].piece(0.7, rng).paint(image_from_decoy,
-                                                                             layer);
+    paintBarrier(unit_, rng)
+        .paint({0.0, image_from_decoy.scale, image_from_decoy.translation}, layer);
   }
 
  private:

@@ -33,7 +33,7 @@ void shadowBelow(const std::vector<cv::Point>& corners, double unit, cv::Mat3b& 
 
 /// A sheet of paper with print, turned.
 void laySheet(const cv::Size& sheet_size, double unit, cv::RNG& rng, cv::Mat3b& image) {
-  cv::Mat3b sheet = paintNoise(sheet_size, {222.0, 230.0, 232.0}, 2.5, rng);
+  cv::Mat3b sheet = paintMottle(sheet_size, {222.0, 230.0, 232.0}, 2.5, rng);
   const int margin = sheet_size.width / 10;
   paintPrint({margin, margin, sheet_size.width - 2 * margin, sheet_size.height - 2 * margin},
              std::max(5, cvRound(11.0 * unit)), {85.0, 75.0, 70.0}, rng, sheet);
@@ -78,8 +78,8 @@ cv::Mat3b paintDesk(const cv::Size& size, cv::RNG& rng) {
   }
   // The ring that a cup left.
   cv::Mat1b stain(size, uchar(0));
-  cv::circle(stain, randomPoint(size, rng), cvRound(38.0 * unit), 90, std::max(1, cvRound(4 * unit)),
-             cv::LINE_AA);
+  cv::circle(stain, randomPoint(size, rng), cvRound(38.0 * unit), 90,
+             std::max(1, cvRound(4 * unit)), cv::LINE_AA);
   cv::GaussianBlur(stain, stain, {0, 0}, 1.5);
   tint(stain, {25.0, 45.0, 75.0}, desk);
   addGrain(2.5, 0.8, rng, desk);
@@ -91,17 +91,17 @@ cv::Mat3b paintDesk(const cv::Size& size, cv::RNG& rng) {
 cv::Mat3b paintWorkshop(const cv::Size& size, cv::RNG& rng) {
   const double unit = unitOf(size);
   const auto px = [&](double length) { return cvRound(length * unit); };
-  cv::Mat3b hall = paintNoise(size, {128.0, 132.0, 130.0}, 9.0, rng);
+  cv::Mat3b hall = paintMottle(size, {128.0, 132.0, 130.0}, 9.0, rng);
   const int floor = size.height * 7 / 10;
   const cv::Rect ground(0, floor, size.width, size.height - floor);
-  paintNoise(ground.size(), {92.0, 100.0, 104.0}, 10.0, rng).copyTo(hall(ground));
+  paintMottle(ground.size(), {92.0, 100.0, 104.0}, 10.0, rng).copyTo(hall(ground));
   for (int x = 0; x < size.width; x += px(120.0)) {
     cv::line(hall, {x, 0}, {x, floor}, {105.0, 108.0, 108.0}, px(3.0));
   }
   for (int i = 0; i < 9; ++i) {
     const cv::Size crate(px(rng.uniform(40.0, 120.0)), px(rng.uniform(40.0, 150.0)));
     const cv::Point corner(rng.uniform(-40, size.width), floor - crate.height + px(15.0));
-    const cv::Scalar color = 0.55 * randomColor(rng) + cv::Scalar(35.0, 40.0, 45.0);
+    const cv::Scalar color = 0.8 * mutedColor(rng) + cv::Scalar(15.0, 18.0, 20.0);
     cv::rectangle(hall, cv::Rect(corner, crate), color, cv::FILLED);
     cv::rectangle(hall, cv::Rect(corner, crate), 0.6 * color, px(3.0));
     cv::rectangle(hall, cv::Rect(corner, cv::Size(crate.width, px(7.0))), 1.25 * color, cv::FILLED);
@@ -128,20 +128,20 @@ cv::Mat3b paintWorkshop(const cv::Size& size, cv::RNG& rng) {
 cv::Mat3b paintBookcase(const cv::Size& size, cv::RNG& rng) {
   const double unit = unitOf(size);
   const auto px = [&](double length) { return cvRound(length * unit); };
-  cv::Mat3b shelves = paintNoise(size, {38.0, 46.0, 58.0}, 6.0, rng);
+  cv::Mat3b shelves = paintMottle(size, {38.0, 46.0, 58.0}, 6.0, rng);
   const int pitch = px(150.0);
   for (int top = -px(40.0); top < size.height; top += pitch) {
     for (int x = 0; x < size.width;) {
       const int width = px(rng.uniform(12.0, 34.0));
       const int height = px(rng.uniform(95.0, 128.0));
       const cv::Rect spine(x, top + pitch - px(14.0) - height, width, height);
-      const cv::Scalar color = 0.75 * randomColor(rng) + cv::Scalar(15.0, 20.0, 25.0);
+      const cv::Scalar color = 0.9 * mutedColor(rng);
       if (rng.uniform(0, 9) > 0) {
         cv::rectangle(shelves, spine, color, cv::FILLED);
         cv::rectangle(shelves, cv::Rect(x, spine.y + height / 6, width, px(8.0)),
                       cv::Scalar::all(255.0) - 0.6 * color, cv::FILLED);
-        cv::rectangle(shelves, cv::Rect(x + width * 2 / 5, spine.y + height / 3, width / 4,
-                                        height * 2 / 5),
+        cv::rectangle(shelves,
+                      cv::Rect(x + width * 2 / 5, spine.y + height / 3, width / 4, height * 2 / 5),
                       {200.0, 215.0, 220.0}, cv::FILLED);
         cv::rectangle(shelves, cv::Rect(x, spine.y, std::max(1, px(3.0)), height), 0.5 * color,
                       cv::FILLED);
@@ -159,7 +159,7 @@ cv::Mat3b paintBookcase(const cv::Size& size, cv::RNG& rng) {
 
 cv::Mat3b paintTissue(const cv::Size& size, cv::RNG& rng) {
   const double unit = unitOf(size);
-  cv::Mat3b tissue = paintNoise(size, {105.0, 110.0, 195.0}, 15.0, rng);
+  cv::Mat3b tissue = paintMottle(size, {105.0, 110.0, 195.0}, 15.0, rng);
   addGrain(7.0, 2.5 * unit, rng, tissue);
   cv::Mat1b vessels(size, uchar(0));
   for (int i = 0; i < 16; ++i) {
@@ -185,7 +185,7 @@ cv::Mat3b paintTissue(const cv::Size& size, cv::RNG& rng) {
     tint(fat, {140.0, 190.0, 225.0}, tissue);
   }
   cv::Mat1b glints(size, uchar(0));
-  for (int i = 0; i < 45; ++i) {
+  for (int i = 0; i < 26; ++i) {
     cv::ellipse(glints, randomPoint(size, rng),
                 {cvRound(rng.uniform(1.0, 9.0) * unit), cvRound(rng.uniform(1.0, 3.0) * unit)},
                 rng.uniform(0.0, 180.0), 0.0, 360.0, 230, cv::FILLED, cv::LINE_AA);
@@ -198,7 +198,7 @@ cv::Mat3b paintTissue(const cv::Size& size, cv::RNG& rng) {
 
 cv::Mat3b paintDimRoom(const cv::Size& size, cv::RNG& rng) {
   const double unit = unitOf(size);
-  cv::Mat3b room = paintNoise(size, {48.0, 46.0, 52.0}, 10.0, rng);
+  cv::Mat3b room = paintMottle(size, {48.0, 46.0, 52.0}, 10.0, rng);
   for (int i = 0; i < 14; ++i) {
     cv::Mat1b lamp(size, uchar(0));
     cv::circle(lamp, randomPoint(size, rng), cvRound(rng.uniform(10.0, 45.0) * unit),
@@ -214,27 +214,29 @@ cv::Mat3b paintDimRoom(const cv::Size& size, cv::RNG& rng) {
 
 cv::Mat3b paintStreet(const cv::Size& size, cv::RNG& rng) {
   const double unit = unitOf(size);
-  cv::Mat3b street = paintNoise(size, {118.0, 118.0, 115.0}, 8.0, rng);
+  cv::Mat3b street = paintMottle(size, {118.0, 118.0, 115.0}, 8.0, rng);
   addGrain(13.0, 0.9 * unit, rng, street);
   const int kerb = size.height * 3 / 10;
   const cv::Rect lawn(0, 0, size.width, kerb);
-  cv::Mat3b grass = paintNoise(lawn.size(), {45.0, 105.0, 80.0}, 16.0, rng);
+  cv::Mat3b grass = paintMottle(lawn.size(), {45.0, 105.0, 80.0}, 16.0, rng);
   addGrain(22.0, 1.2 * unit, rng, grass);
   grass.copyTo(street(lawn));
   const cv::Rect stone(0, kerb, size.width, std::max(1, cvRound(22.0 * unit)));
-  cv::Mat3b stones = paintNoise(stone.size(), {165.0, 170.0, 172.0}, 7.0, rng);
+  cv::Mat3b stones = paintMottle(stone.size(), {165.0, 170.0, 172.0}, 7.0, rng);
   addGrain(7.0, 0.8, rng, stones);
   stones.copyTo(street(stone));
   for (int x = 0; x < size.width; x += cvRound(95.0 * unit)) {
     cv::line(street, {x, stone.y}, {x, stone.br().y}, {95.0, 95.0, 95.0}, 2, cv::LINE_AA);
   }
   cv::Mat1b gutter(size, uchar(0));
-  cv::rectangle(gutter, cv::Rect(0, stone.br().y, size.width, cvRound(8.0 * unit)), 150, cv::FILLED);
+  cv::rectangle(gutter, cv::Rect(0, stone.br().y, size.width, cvRound(8.0 * unit)), 150,
+                cv::FILLED);
   cv::GaussianBlur(gutter, gutter, {0, 0}, 3.0 * unit);
   tint(gutter, {40.0, 42.0, 45.0}, street);
   for (int i = 0; i < 60; ++i) {
     const cv::Point at = randomPoint(size, rng);
-    const cv::Size half(cvRound(rng.uniform(3.0, 8.0) * unit), cvRound(rng.uniform(2.0, 4.0) * unit));
+    const cv::Size half(cvRound(rng.uniform(3.0, 8.0) * unit),
+                        cvRound(rng.uniform(2.0, 4.0) * unit));
     cv::ellipse(street, at, half, rng.uniform(0.0, 180.0), 0.0, 360.0,
                 {rng.uniform(20.0, 60.0), rng.uniform(70.0, 140.0), rng.uniform(110.0, 190.0)},
                 cv::FILLED, cv::LINE_AA);

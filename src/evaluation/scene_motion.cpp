@@ -139,9 +139,8 @@ ObjectState PoseMotion::at(double frame) const {
   const BurstPath::Step burst = bursts_.at(frame);
   const double time = burst.clock / kFramesPerTime;
   const double travel = time * options_.speed;
-  const cv::Point2d home(
-      options_.size.width * (range_.center.x + range_.reach.x * x_.at(travel)),
-      options_.size.height * (range_.center.y + range_.reach.y * y_.at(travel)));
+  const cv::Point2d home(options_.size.width * (range_.center.x + range_.reach.x * x_.at(travel)),
+                         options_.size.height * (range_.center.y + range_.reach.y * y_.at(travel)));
   const double turn = options_.rotation / turn_.fastestStep() * range_.turn * turn_.at(time);
   const Similarity pose{range_.angle + turn + burst.angle,
                         std::pow(options_.scale_range, growth_.at(time)),

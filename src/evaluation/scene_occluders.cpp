@@ -17,15 +17,17 @@ constexpr int kBorder = 4;
 Sprite paintThing(int kind, const cv::Size& size, cv::RNG& rng) {
   cv::Mat3b color;
   if (kind == 0) {
-    color = paintNoise(size, {95.0, 90.0, 85.0}, 9.0, rng);
+    color = paintMottle(size, {95.0, 90.0, 85.0}, 9.0, rng);
     const int pitch = std::max(6, size.width / 6);
     cv::Mat1b checks(size, uchar(0));
-    for (int x = 0; x < size.width; x += pitch) checks.colRange(x, std::min(x + pitch / 3, size.width)) += 90;
-    for (int y = 0; y < size.height; y += pitch) checks.rowRange(y, std::min(y + pitch / 3, size.height)) += 90;
+    for (int x = 0; x < size.width; x += pitch)
+      checks.colRange(x, std::min(x + pitch / 3, size.width)) += 90;
+    for (int y = 0; y < size.height; y += pitch)
+      checks.rowRange(y, std::min(y + pitch / 3, size.height)) += 90;
     tint(checks, randomColor(rng), color);
     addGrain(6.0, 0.7, rng, color);
   } else if (kind == 1) {
-    color = paintNoise(size, {205.0, 222.0, 228.0}, 4.0, rng);
+    color = paintMottle(size, {205.0, 222.0, 228.0}, 4.0, rng);
     const int margin = std::max(2, size.width / 12);
     cv::rectangle(color, cv::Rect(margin, margin, size.width - 2 * margin, size.height / 5),
                   randomColor(rng), cv::FILLED);
@@ -39,8 +41,8 @@ Sprite paintThing(int kind, const cv::Size& size, cv::RNG& rng) {
   cv::Mat1b coverage(size, uchar(255));
   cv::copyMakeBorder(color, color, kBorder, kBorder, kBorder, kBorder, cv::BORDER_REPLICATE);
   cv::copyMakeBorder(coverage, coverage, kBorder, kBorder, kBorder, kBorder, cv::BORDER_CONSTANT);
-  return {color, coverage, {kBorder + 0.5 * (size.width - 1), kBorder + 0.5 * (size.height - 1)},
-          1.0};
+  return {
+      color, coverage, {kBorder + 0.5 * (size.width - 1), kBorder + 0.5 * (size.height - 1)}, 1.0};
 }
 
 }  // namespace

@@ -40,6 +40,10 @@ void Layer::paint(const cv::Mat4b& piece, const cv::Point& top_left) {
     for (int x = 0; x < area.width; ++x) {
       const int transparency = 255 - above[x][3];
       if (transparency == 255) continue;
+      if (transparency == 0) {
+        below[x] = above[x];
+        continue;
+      }
       for (int c = 0; c < 4; ++c) below[x][c] = overBytes(above[x][c], below[x][c], transparency);
     }
   }
@@ -73,12 +77,12 @@ void Layer::castShadow(double strength, cv::Mat3b& canvas) const {
   cv::warpAffine(coarse, coarse, moved, coarse.size(), cv::INTER_LINEAR);
   cv::GaussianBlur(coarse, coarse, {0, 0}, 0.6 * reach / kShadowStep, 0.0, cv::BORDER_REPLICATE);
   cv::resize(coarse, coverage, area.size(), 0.0, 0.0, cv::INTER_LINEAR);
-  const int weight = cvRound(256.0 * strength);
+  const int weight = cvRound(257.0 * strength);  // of 65536, with a coverage of 255
   for (int row = 0; row < area.height; ++row) {
     cv::Vec3b* pixel = canvas[area.y + row] + area.x;
     for (int x = 0; x < area.width; ++x) {
-      const int light = 65280 - weight * coverage(row, x);
-      for (int c = 0; c < 3; ++c) pixel[x][c] = static_cast<uchar>(pixel[x][c] * light / 65280);
+      const int light = 65536 - weight * coverage(row, x);
+      for (int c = 0; c < 3; ++c) pixel[x][c] = static_cast<uchar>((pixel[x][c] * light) >> 16);
     }
   }
 }
@@ -97,15 +101,19 @@ cv::Vec4b coveredPixel(const cv::Vec3d& color, double coverage) {
 
 cv::Rect pixelsWithin(const cv::Rect2d& bounds, double margin, const Layer& layer) {
   // Cut first: far outside, the numbers need not fit an int.
-  const cv::Rect2d cut =
-      cv::Rect2d(bounds.x - margin, bounds.y - margin, bounds.width + 2.0 * margin,
-                 bounds.height + 2.0 * margin) &
-      cv::Rect2d(layer.bounds());
+  const cv::Rect2d cut = cv::Rect2d(bounds.x - margin, bounds.y - margin,
+                                    bounds.width + 2.0 * margin, bounds.height + 2.0 * margin) &
+                         cv::Rect2d(layer.bounds());
   if (cut.empty()) return {};
   const cv::Point low(cvFloor(cut.x), cvFloor(cut.y));
   const cv::Point high(cvCeil(cut.br().x) + 1, cvCeil(cut.br().y) + 1);
   return cv::Rect(low, high) & layer.bounds();
 }
+
+ObjectGrid::ObjectGrid(const Similarity& image_from_object, const cv::Point& first_pixel)
+    : origin_(image_from_object.applyInverse(first_pixel)),
+      right_(image_from_object.applyInverse(first_pixel + cv::Point(1, 0)) - origin_),
+      down_(image_from_object.applyInverse(first_pixel + cv::Point(0, 1)) - origin_) {}
 
 Sprite::Sprite(const cv::Mat3b& color, const cv::Mat1b& coverage, const cv::Point2d& center,
                double pixels)
@@ -153,20 +161,16 @@ void Sprite::paint(const Similarity& image_from_object, Layer& layer) const {
 }
 
 Sprite Sprite::piece(double size, cv::RNG& rng) const {
-  cv::Mat4b covered = levels_.front().clone();
-  const cv::Point2d middle(covered.cols * rng.uniform(0.35, 0.65),
-                           covered.rows * rng.uniform(0.35, 0.65));
-  const double bumps = rng.uniform(0.0, 2.0 * CV_PI);
-  for (int row = 0; row < covered.rows; ++row) {
-    for (int x = 0; x < covered.cols; ++x) {
-      const cv::Point2d offset((x - middle.x) / covered.cols, (row - middle.y) / covered.rows);
-      const double phi = directionOf(offset);
-      const double radius = 0.5 * size *
-                            (1.0 + 0.15 * std::sin(3.0 * phi + bumps) + 0.1 * std::sin(5.0 * phi));
-      if (cv::norm(offset) > radius) covered(row, x) = cv::Vec4b::all(0);
-    }
-  }
-  return {covered, middle, pixels_};
+  const cv::Mat4b& finest = levels_.front();
+  const cv::Size cut(std::max(1, cvRound(size * finest.cols)),
+                     std::max(1, cvRound(size * finest.rows)));
+  const cv::Size room = finest.size() - cut;
+  const cv::Point corner(cvRound(room.width * rng.uniform(0.3, 0.7)),
+                         cvRound(room.height * rng.uniform(0.3, 0.7)));
+  cv::Mat4b covered;
+  cv::copyMakeBorder(finest(cv::Rect(corner, cut)), covered, 4, 4, 4, 4, cv::BORDER_CONSTANT,
+                     cv::Scalar::all(0.0));
+  return {covered, cv::Point2d(0.5 * cut.width + 4.0, 0.5 * cut.height + 4.0), pixels_};
 }
 
 }  // namespace chain_tracker

@@ -24,6 +24,25 @@ cv::Mat3b paintNoise(const cv::Size& size, const cv::Scalar& mean, double contra
   return image;
 }
 
+cv::Mat3b paintMottle(const cv::Size& size, const cv::Scalar& mean, double contrast, cv::RNG& rng) {
+  // A quarter of the noise keeps its colour, the rest becomes light and shade.
+  const cv::Scalar middle = cv::Scalar::all(128.0);
+  const cv::Mat3b noise = paintNoise(size, middle, 1.7 * contrast, rng);
+  cv::Mat1b grey;
+  cv::cvtColor(noise, grey, cv::COLOR_BGR2GRAY);
+  cv::Mat3b shade;
+  cv::cvtColor(grey, shade, cv::COLOR_GRAY2BGR);
+  cv::Mat3f sum;
+  cv::Mat3f shade_offset;
+  noise.convertTo(sum, CV_32FC3, 0.2, -0.2 * 128.0);
+  shade.convertTo(shade_offset, CV_32FC3, 1.0, -128.0);
+  sum += shade_offset;
+  sum += mean;
+  cv::Mat3b image;
+  sum.convertTo(image, CV_8UC3);
+  return image;
+}
+
 void addGrain(double contrast, double softness, cv::RNG& rng, cv::Mat3b& image) {
   cv::Mat1f noise(image.size());
   rng.fill(noise, cv::RNG::NORMAL, 0.0, 1.0);
@@ -40,7 +59,7 @@ void addGrain(double contrast, double softness, cv::RNG& rng, cv::Mat3b& image) 
 }
 
 cv::Mat3b paintWood(const cv::Size& size, const cv::Scalar& mean, double contrast, cv::RNG& rng) {
-  cv::Mat3b image = paintNoise(size, mean, 0.4 * contrast, rng);
+  cv::Mat3b image = paintMottle(size, mean, 0.5 * contrast, rng);
   cv::Mat1f rings(size);
   cv::Mat1f bend(std::max(2, size.height / 60), 5);
   rng.fill(bend, cv::RNG::NORMAL, 0.0, 1.0);
@@ -49,8 +68,8 @@ cv::Mat3b paintWood(const cv::Size& size, const cv::Scalar& mean, double contras
   for (int row = 0; row < size.height; ++row) {
     for (int x = 0; x < size.width; ++x) {
       const double phase = pitch * row + 4.0 * bend(row, x);
-      rings(row, x) =
-          static_cast<float>(contrast * (0.5 * std::sin(phase) + 0.3 * std::sin(0.31 * phase + 1.0)));
+      rings(row, x) = static_cast<float>(
+          contrast * (0.5 * std::sin(phase) + 0.3 * std::sin(0.31 * phase + 1.0)));
     }
   }
   cv::Mat1f fibres(size);
@@ -115,6 +134,13 @@ void paintPrint(const cv::Rect& area, int line_height, const cv::Scalar& ink, cv
 
 cv::Scalar randomColor(cv::RNG& rng) {
   return {rng.uniform(20.0, 235.0), rng.uniform(20.0, 235.0), rng.uniform(20.0, 235.0)};
+}
+
+cv::Scalar mutedColor(cv::RNG& rng) {
+  const cv::Scalar color = randomColor(rng);
+  const double grey = (color[0] + color[1] + color[2]) / 3.0;
+  // Dyes and paints lean to the warm side.
+  return 0.45 * color + 0.5 * cv::Scalar(0.85 * grey, 0.98 * grey, 1.1 * grey);
 }
 
 }  // namespace chain_tracker

@@ -9,6 +9,9 @@ namespace chain_tracker {
 /// Smooth noise of several octaves around `mean`, `contrast` grey levels strong.
 cv::Mat3b paintNoise(const cv::Size& size, const cv::Scalar& mean, double contrast, cv::RNG& rng);
 
+/// The same of a surface of one colour: lighter and darker, hardly coloured.
+cv::Mat3b paintMottle(const cv::Size& size, const cv::Scalar& mean, double contrast, cv::RNG& rng);
+
 /// Adds fine noise, the same in all channels, smoothed over `softness` px; both > 0.
 void addGrain(double contrast, double softness, cv::RNG& rng, cv::Mat3b& image);
 
@@ -26,5 +29,7 @@ void paintPrint(const cv::Rect& area, int line_height, const cv::Scalar& ink, cv
                 cv::Mat3b& image);
 
 cv::Scalar randomColor(cv::RNG& rng);
+/// As most things are: not very colourful.
+cv::Scalar mutedColor(cv::RNG& rng);
 
 }  // namespace chain_tracker

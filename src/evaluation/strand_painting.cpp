@@ -12,15 +12,16 @@ namespace {
 struct Footing {
   float distance = std::numeric_limits<float>::infinity();  ///< from the middle line [px]
   float side = 0.0F;                                        ///< the same, signed
-  float along = 0.0F;     ///< from 0 at the first to 1 at the last point
-  float overshoot = 0.0F;  ///< beyond the strand's end [px]
+  float along = 0.0F;       ///< from 0 at the first to 1 at the last point
+  float overshoot = -1.0F;  ///< beyond the strand's end [px]; negative before it
 };
 
 double sampled(const std::vector<double>& values, double along) {
   const double position = along * static_cast<double>(values.size() - 1);
   const size_t before = std::min(static_cast<size_t>(position), values.size() - 1);
   const size_t after = std::min(before + 1, values.size() - 1);
-  return values[before] + (position - static_cast<double>(before)) * (values[after] - values[before]);
+  return values[before] +
+         (position - static_cast<double>(before)) * (values[after] - values[before]);
 }
 
 cv::Vec3d sampled(const cv::Mat3b& strip, double along, double across) {
@@ -51,15 +52,14 @@ class StretchWalk {
     const double inside = std::clamp(t, 0.0, length_);
     const double side = direction_.cross(offset);
     double beyond = t - inside;
-    double overshoot = 0.0;
+    double overshoot = -1.0;
+    if (first_) overshoot = std::max(overshoot, -t);
+    if (last_) overshoot = std::max(overshoot, t - length_);
     // Past an end of the strand it is the straight cut that counts, not the distance.
-    if ((first_ && t < 0.0) || (last_ && t > length_)) {
-      overshoot = std::abs(beyond);
-      beyond = 0.0;
-    }
-    const float distance = static_cast<float>(std::hypot(side, beyond));
-    const float order = distance + static_cast<float>(overshoot);
-    if (order >= footing.distance + footing.overshoot) return;
+    if (overshoot > 0.0) beyond = 0.0;
+    const float distance = static_cast<float>(std::sqrt(side * side + beyond * beyond));
+    const float order = distance + static_cast<float>(std::max(overshoot, 0.0));
+    if (order >= footing.distance + std::max(footing.overshoot, 0.0F)) return;
     footing = {distance, static_cast<float>(std::copysign(distance, side)),
                static_cast<float>((index_ + inside / length_) / stretches_),
                static_cast<float>(overshoot)};
@@ -98,17 +98,17 @@ void paintStrand(const std::vector<cv::Point2d>& line, const StrandLook& look, d
     const StretchWalk stretch(line, i);
     const cv::Rect near = pixelsWithin(uprightBounds({line[i], line[i + 1]}), margin, layer);
     for (int y = near.y; y < near.br().y; ++y) {
-      Footing* row = footings.data() + static_cast<size_t>(y - region.y) *
-                                           static_cast<size_t>(region.width);
-      for (int x = near.x; x < near.br().x; ++x) stretch.update({1.0 * x, 1.0 * y}, row[x - region.x]);
+      Footing* row =
+          footings.data() + static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width);
+      for (int x = near.x; x < near.br().x; ++x)
+        stretch.update({1.0 * x, 1.0 * y}, row[x - region.x]);
     }
   }
   cv::Mat4b piece(region.size(), cv::Vec4b::all(0));
   for (int y = 0; y < region.height; ++y) {
     for (int x = 0; x < region.width; ++x) {
-      const Footing& footing =
-          footings[static_cast<size_t>(y) * static_cast<size_t>(region.width) +
-                   static_cast<size_t>(x)];
+      const Footing& footing = footings[static_cast<size_t>(y) * static_cast<size_t>(region.width) +
+                                        static_cast<size_t>(x)];
       if (footing.distance > margin) continue;
       const double half_width = scale * sampled(look.half_widths, footing.along);
       const double covered = coverage(footing, half_width);

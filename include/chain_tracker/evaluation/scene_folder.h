@@ -19,8 +19,8 @@ namespace chain_tracker {
 ///
 /// `progress` is called after each frame with the number of frames done. Throws std::runtime_error
 /// naming the file that cannot be written.
-void writeSceneFolder(const SyntheticScene& scene, const SceneOptions& options,
-                      const std::string& folder,
-                      const std::function<void(int)>& progress = [](int) {});
+void writeSceneFolder(
+    const SyntheticScene& scene, const SceneOptions& options, const std::string& folder,
+    const std::function<void(int)>& progress = [](int) {});
 
 }  // namespace chain_tracker
