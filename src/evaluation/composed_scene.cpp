@@ -46,10 +46,11 @@ ComposedScene::ComposedScene(const SceneRecipe& recipe, const SceneOptions& opti
       habits_(object_->habits()),
       motion_(options, habits_.motion, object_->radius(), rng_),
       extras_rng_(options.seed * 104729U + 1U),
+      occluders_rng_(options.seed * 104729U + 2U),
       background_x_(1.0, extras_rng_),
       background_y_(1.0, extras_rng_),
       illumination_(options.illumination, extras_rng_),
-      occluders_(options, object_->length(), extras_rng_) {
+      occluders_(options, object_->length(), occluders_rng_) {
   addClutter(extras_rng_);
   first_scale_ = motion_.at(0.0).image_from_object.scale;
   first_points_ = truthAt(0.0).points;
@@ -71,7 +72,9 @@ void ComposedScene::addClutter(cv::RNG& rng) {
 ObjectTruth ComposedScene::truthAt(double time) const {
   ObjectTruth truth = object_->truthAt(motion_.at(time));
   if (truth.segments.empty()) {
-    const std::vector<cv::Point2d>& from = first_points_.empty() ? truth.points : first_points_;
+    std::vector<cv::Point2d> from = first_points_.empty() ? truth.points : first_points_;
+    const cv::Point2d middle = meanOf(from);
+    for (cv::Point2d& point : from) point -= middle;
     truth.segments = {
         fitSimilarity(from, truth.points, std::vector<double>(truth.points.size(), 1.0))};
   } else {

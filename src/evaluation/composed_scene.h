@@ -53,7 +53,9 @@ class ComposedScene : public SyntheticScene {
   SceneObjectPtr object_;
   SceneHabits habits_;
   PoseMotion motion_;
-  cv::RNG extras_rng_;  ///< of what is not always there: the rest stays as it is without
+  /// What is not always there draws from sources of its own: the rest stays as it is without.
+  cv::RNG extras_rng_;
+  cv::RNG occluders_rng_;
   SmoothMotion background_x_;
   SmoothMotion background_y_;
   IlluminationDrift illumination_;

@@ -106,7 +106,7 @@ Sprite paintGuitar(double length, cv::RNG& rng) {
 class GuitarString : public SceneObject {
  public:
   GuitarString(const SceneOptions& options, cv::RNG& rng)
-      : length_(0.82 * options.size.width),
+      : length_(0.68 * options.size.width),
         others_(std::clamp(options.clutter.value_or(5), 0, 5)),
         guitar_(paintGuitar(length_, rng)),
         look_(paintString(length_, options.plain, {105.0, 165.0, 215.0}, kHalfThickness * length_,

@@ -19,6 +19,8 @@ constexpr double kEndRadii[kLinks] = {0.042, 0.032, 0.018};
 /// Where the joints are at rest and how far they turn, in shares of the turning asked for.
 constexpr double kRest[kLinks] = {-CV_PI / 2.0 - 0.2, 0.5, 0.6};
 constexpr double kTurn[kLinks] = {0.5, 0.9, 1.0};
+/// Where the gripper's jaws begin, of its length.
+constexpr double kPalm = 0.55;
 constexpr double kSpritePixels = 2.0;
 
 const cv::Scalar kPaint(30.0, 140.0, 235.0);
@@ -108,23 +110,27 @@ Sprite paintLink(const LinkShape& shape, cv::RNG& rng) {
   return {canvas.color, canvas.coverage, canvas.origin, kSpritePixels};
 }
 
+/// One of two jaws; the other is its mirror image.
+std::vector<cv::Point2d> jawCorners(double length, double radius) {
+  const double palm = kPalm * length;
+  return {{0.5 * palm, 0.6 * radius}, {palm, 1.35 * radius}, {0.8 * length, 1.2 * radius},
+          {length, 0.28 * radius},    {length, 0.0},         {0.78 * length, 0.45 * radius},
+          {palm, 0.5 * radius}};
+}
+
 /// The wrist with a gripper whose jaws end at the link's end.
 Sprite paintGripper(const LinkShape& shape, cv::RNG& rng) {
   LinkCanvas canvas(shape);
   canvas.color = paintMottle(canvas.size, kSteel, 8.0, rng);
-  const double palm = 0.55 * shape.length;
+  const double palm = kPalm * shape.length;
   fillTaper(canvas.coverage, canvas, shape, 0.0, palm, 1.0, cv::Scalar(255.0));
   cv::circle(canvas.coverage, canvas.at(0.0, 0.0), canvas.side(shape.start_radius), 255, cv::FILLED,
              cv::LINE_AA);
   for (const double side : {-1.0, 1.0}) {
-    const double r = shape.end_radius;
-    const std::vector<cv::Point> jaw{canvas.at(0.5 * palm, side * 0.6 * r),
-                                     canvas.at(palm, side * 1.35 * r),
-                                     canvas.at(0.8 * shape.length, side * 1.2 * r),
-                                     canvas.at(shape.length, side * 0.28 * r),
-                                     canvas.at(shape.length, 0.0),
-                                     canvas.at(0.78 * shape.length, side * 0.45 * r),
-                                     canvas.at(palm, side * 0.5 * r)};
+    std::vector<cv::Point> jaw;
+    for (const cv::Point2d& corner : jawCorners(shape.length, shape.end_radius)) {
+      jaw.push_back(canvas.at(corner.x, side * corner.y));
+    }
     cv::fillPoly(canvas.coverage, std::vector<std::vector<cv::Point>>{jaw}, 255, cv::LINE_AA);
   }
   cv::rectangle(canvas.color,
@@ -214,7 +220,10 @@ class RobotArm : public SceneObject {
       const cv::Point2d end = link.apply({unit_ * kLengths[i], 0.0});
       if (i + 1 == kLinks) {
         truth.points.push_back(end);
-        rims.push_back(end);
+        for (const cv::Point2d& corner : jawCorners(unit_ * kLengths[i], unit_ * kEndRadii[i])) {
+          rims.push_back(link.apply(corner));
+          rims.push_back(link.apply({corner.x, -corner.y}));
+        }
       } else {
         addDisc(end, unit_ * kEndRadii[i] * link.scale, rims);
       }

@@ -12,8 +12,7 @@ namespace {
 struct Footing {
   float distance = std::numeric_limits<float>::infinity();  ///< from the middle line [px]
   float side = 0.0F;                                        ///< the same, signed
-  float along = 0.0F;       ///< from 0 at the first to 1 at the last point
-  float overshoot = -1.0F;  ///< beyond the strand's end [px]; negative before it
+  float along = 0.0F;  ///< from 0 at the first to 1 at the last point
 };
 
 double sampled(const std::vector<double>& values, double along) {
@@ -42,27 +41,18 @@ class StretchWalk {
         length_(std::max(cv::norm(line[index + 1] - from_), 1e-9)),
         direction_((line[index + 1] - from_) / length_),
         index_(static_cast<double>(index)),
-        stretches_(static_cast<double>(line.size() - 1)),
-        first_(index == 0),
-        last_(index + 2 == line.size()) {}
+        stretches_(static_cast<double>(line.size() - 1)) {}
 
   void update(const cv::Point2d& pixel, Footing& footing) const {
     const cv::Point2d offset = pixel - from_;
     const double t = offset.dot(direction_);
     const double inside = std::clamp(t, 0.0, length_);
     const double side = direction_.cross(offset);
-    double beyond = t - inside;
-    double overshoot = -1.0;
-    if (first_) overshoot = std::max(overshoot, -t);
-    if (last_) overshoot = std::max(overshoot, t - length_);
-    // Past an end of the strand it is the straight cut that counts, not the distance.
-    if (overshoot > 0.0) beyond = 0.0;
+    const double beyond = t - inside;
     const float distance = static_cast<float>(std::sqrt(side * side + beyond * beyond));
-    const float order = distance + static_cast<float>(std::max(overshoot, 0.0));
-    if (order >= footing.distance + std::max(footing.overshoot, 0.0F)) return;
+    if (distance >= footing.distance) return;
     footing = {distance, static_cast<float>(std::copysign(distance, side)),
-               static_cast<float>((index_ + inside / length_) / stretches_),
-               static_cast<float>(overshoot)};
+               static_cast<float>((index_ + inside / length_) / stretches_)};
   }
 
  private:
@@ -71,15 +61,49 @@ class StretchWalk {
   cv::Point2d direction_;
   double index_;
   double stretches_;
-  bool first_;
-  bool last_;
 };
 
-double coverage(const Footing& footing, double half_width) {
+/// The straight cuts at both ends.
+class StrandEnds {
+ public:
+  /// `reach`: how far from an end a pixel may be that its cut concerns [px].
+  StrandEnds(const std::vector<cv::Point2d>& line, double reach)
+      : first_(line.front()),
+        last_(line.back()),
+        first_outwards_(unit(line[0] - line[1])),
+        last_outwards_(unit(line.back() - line[line.size() - 2])) {
+    double length = 0.0;
+    for (size_t i = 1; i < line.size(); ++i) length += cv::norm(line[i] - line[i - 1]);
+    concerned_ = reach / std::max(length, 1e-9);
+  }
+
+  /// The share of a pixel that the cuts leave.
+  double coverageAt(const cv::Point2d& pixel, const Footing& footing) const {
+    double overshoot = -1.0;
+    if (footing.along < concerned_) {
+      overshoot = std::max(overshoot, first_outwards_.dot(pixel - first_));
+    }
+    if (footing.along > 1.0 - concerned_) {
+      overshoot = std::max(overshoot, last_outwards_.dot(pixel - last_));
+    }
+    return std::clamp(0.5 - overshoot, 0.0, 1.0);
+  }
+
+ private:
+  static cv::Point2d unit(const cv::Point2d& vector) {
+    return vector / std::max(cv::norm(vector), 1e-9);
+  }
+
+  cv::Point2d first_;
+  cv::Point2d last_;
+  cv::Point2d first_outwards_;
+  cv::Point2d last_outwards_;
+  double concerned_ = 0.0;
+};
+
+double coverageAcross(const Footing& footing, double half_width) {
   // A strand thinner than a pixel covers a part of it only.
-  const double across =
-      std::clamp(half_width + 0.5 - footing.distance, 0.0, std::min(1.0, 2.0 * half_width));
-  return across * std::clamp(0.5 - static_cast<double>(footing.overshoot), 0.0, 1.0);
+  return std::clamp(half_width + 0.5 - footing.distance, 0.0, std::min(1.0, 2.0 * half_width));
 }
 
 double widest(const StrandLook& look) {
@@ -100,10 +124,12 @@ void paintStrand(const std::vector<cv::Point2d>& line, const StrandLook& look, d
     for (int y = near.y; y < near.br().y; ++y) {
       Footing* row =
           footings.data() + static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width);
-      for (int x = near.x; x < near.br().x; ++x)
-        stretch.update({1.0 * x, 1.0 * y}, row[x - region.x]);
+      for (int x = near.x; x < near.br().x; ++x) {
+        stretch.update(cv::Point2d(x, y), row[x - region.x]);
+      }
     }
   }
+  const StrandEnds ends(line, margin);
   cv::Mat4b piece(region.size(), cv::Vec4b::all(0));
   for (int y = 0; y < region.height; ++y) {
     for (int x = 0; x < region.width; ++x) {
@@ -111,7 +137,8 @@ void paintStrand(const std::vector<cv::Point2d>& line, const StrandLook& look, d
                                         static_cast<size_t>(x)];
       if (footing.distance > margin) continue;
       const double half_width = scale * sampled(look.half_widths, footing.along);
-      const double covered = coverage(footing, half_width);
+      const cv::Point2d pixel(region.x + x, region.y + y);
+      const double covered = coverageAcross(footing, half_width) * ends.coverageAt(pixel, footing);
       if (covered <= 0.0) continue;
       const double across = footing.side / std::max(half_width, 0.5);
       piece(y, x) = coveredPixel(sampled(look.strip, footing.along, across), covered);

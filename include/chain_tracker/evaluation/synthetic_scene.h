@@ -21,7 +21,8 @@ struct SceneFrame {
   std::vector<bool> visible;        ///< per point: in the image and not covered by an occluder
   /// Per segment: image of its frame. A rigid segment's origin is its middle (bottle, box) or its
   /// first joint (robot arm, finger pair) and its x axis points along it; a deformable object has
-  /// one segment, the similarity that carries its points of frame 0 best to those of this frame.
+  /// one segment, the similarity that carries its points of frame 0 best to those of this frame;
+  /// its origin is the mean of its points.
   /// Scale 1 is the size in frame 0.
   std::vector<Similarity> segments;
   Similarity image_from_object;  ///< of the object as a whole; scale 1 is the size in frame 0
