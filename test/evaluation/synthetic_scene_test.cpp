@@ -90,7 +90,7 @@ TEST_P(EveryScene, BoxIsWhereThePictureChanges) {
     SCOPED_TRACE(index);
     const cv::Rect2d box = scene->render(index).box;
     const cv::Rect changed = cv::boundingRect(objectMask(*scene, index));
-    const double tolerance = 2.5;
+    const double tolerance = 2.0;
     // Pixels reach half a pixel beyond their centres; the image cuts what sticks out of it.
     EXPECT_NEAR(changed.x - 0.5, std::max(box.x, -0.5), tolerance);
     EXPECT_NEAR(changed.y - 0.5, std::max(box.y, -0.5), tolerance);
