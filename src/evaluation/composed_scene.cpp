@@ -38,7 +38,7 @@ cv::Size grown(const cv::Size& size, double margin) {
 
 ComposedScene::ComposedScene(const SceneRecipe& recipe, const SceneOptions& options)
     : options_(options),
-      model_(recipe.name),
+      model_(recipe.model),
       margin_(backgroundMargin(options)),
       rng_(options.seed),
       background_(recipe.paint_background(grown(options.size, margin_), rng_)),

@@ -12,7 +12,8 @@ namespace chain_tracker {
 
 /// How a scene comes about: a place and an object in it.
 struct SceneRecipe {
-  std::string name;  ///< also of the model
+  std::string name;
+  std::string model;  ///< a model of config/models that tracks it, or auto
   cv::Mat3b (*paint_background)(const cv::Size&, cv::RNG&);
   SceneObjectPtr (*make_object)(const SceneOptions&, cv::RNG&);
 };

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <limits>
-#include <utility>
+#include <stdexcept>
 
 #include "chain_tracker/image/pixel_geometry.h"
 
@@ -55,15 +56,68 @@ cv::Rect2d pointBox(const TrackedFrame& tracked) {
   return boxAround(points);
 }
 
-EvaluatedFrame process(EvaluatedTracker& tracker, const SourceFrame& frame, bool first,
-                       const GroundTruth& truth) {
+std::string nameOf(const SourceFrame& frame) { return "frame " + std::to_string(frame.index); }
+
+void skip(const std::string& fault, EvaluationResult& result) {
+  ++result.skipped_frames;
+  result.faults.push_back("skipped a frame: " + fault);
+}
+
+/// Hands the frames asked for, as far as they can be read, to `step` in order.
+template <typename Step>
+void forEachFrame(FrameSource& frames, const EvaluationOptions& options, EvaluationResult& result,
+                  const Step& step) {
+  SourceFrame frame;
+  int read = 0;
+  int seen = 0;
+  while (options.max_frames == 0 || seen < options.max_frames) {
+    result.interrupted = options.interrupted && options.interrupted();
+    if (result.interrupted || !frames.next(frame)) break;
+    ++read;
+    if (frame.index < options.first_frame) continue;
+    if (seen == 0 && !frame.fault.empty()) {
+      throw std::invalid_argument(nameOf(frame) + ", in which the object is given: " + frame.fault);
+    }
+    ++seen;
+    if (frame.fault.empty()) {
+      step(frame);
+    } else {
+      skip(frame.fault, result);
+    }
+    if (options.progress) options.progress(seen);
+  }
+  if (seen > 0 || result.interrupted) return;
+  throw std::invalid_argument("the object is given in frame " +
+                              std::to_string(options.first_frame) + ", counted from 0, of only " +
+                              std::to_string(read));
+}
+
+TrackedFrame nothingKnown() {
+  TrackedFrame frame;
+  frame.state = "LOST";
+  frame.lost = true;
+  return frame;
+}
+
+/// Lets the tracker see the frame; of the chain tracker, a start must succeed.
+void process(EvaluatedTracker& tracker, const SourceFrame& frame, bool must_succeed,
+             const GroundTruth& truth, TrackerRun& run) {
   EvaluatedFrame evaluated;
   evaluated.index = frame.index;
+  const bool first = run.frames.empty();
   evaluated.time_ms = timed([&] {
-    evaluated.tracked = first ? tracker.start(frame.image) : tracker.update(frame.image);
+    try {
+      evaluated.tracked = first ? tracker.start(frame.image) : tracker.update(frame.image);
+    } catch (const std::exception& error) {
+      if (must_succeed) throw;
+      evaluated.tracked = nothingKnown();
+      if (run.fault.empty()) {
+        run.fault = run.name + " failed on " + nameOf(frame) + ": " + error.what();
+      }
+    }
   });
   evaluated.score = scoreFrame(evaluated.tracked, truth, frame.index);
-  return evaluated;
+  run.frames.push_back(evaluated);
 }
 
 Scores scoresOf(const TrackerRun& run, double object_length) {
@@ -74,6 +128,14 @@ Scores scoresOf(const TrackerRun& run, double object_length) {
     if (frame.index != run.frames.front().index) times.push_back(frame.time_ms);
   }
   return summarize(scores, object_length, times);
+}
+
+/// Scores the runs and tells of their faults.
+void finish(double object_length, EvaluationResult& result) {
+  for (TrackerRun& run : result.runs) {
+    run.scores = scoresOf(run, object_length);
+    if (!run.fault.empty()) result.faults.push_back(run.fault);
+  }
 }
 
 }  // namespace
@@ -116,33 +178,41 @@ EvaluationResult evaluate(FrameSource& frames,
                           const GroundTruth& truth, const std::vector<cv::Point2d>& start,
                           const EvaluationOptions& options) {
   EvaluationResult result;
-  for (const auto& tracker : trackers) result.runs.push_back({tracker->name(), {}, {}});
-  SourceFrame frame;
-  int processed = 0;
-  bool first = true;
-  while ((options.max_frames == 0 || processed < options.max_frames) && frames.next(frame)) {
-    if (options.interrupted && options.interrupted()) {
-      result.interrupted = true;
-      break;
-    }
-    if (frame.index < options.first_frame) continue;
-    ++processed;
-    if (!frame.fault.empty()) {
-      ++result.skipped_frames;
-      result.faults.push_back(frame.fault);
-      continue;
+  for (const auto& tracker : trackers) result.runs.push_back({tracker->name(), {}, {}, ""});
+  cv::Size size;
+  forEachFrame(frames, options, result, [&](const SourceFrame& frame) {
+    if (size.empty()) size = frame.image.size();
+    if (frame.image.size() != size) {
+      skip(nameOf(frame) + " has another size than the first one", result);
+      return;
     }
     for (std::size_t i = 0; i < trackers.size(); ++i) {
-      result.runs[i].frames.push_back(process(*trackers[i], frame, first, truth));
+      TrackerRun& run = result.runs[i];
+      process(*trackers[i], frame, i == 0 && run.frames.empty(), truth, run);
     }
-    first = false;
     if (options.observer) options.observer(frame, result.runs.front().frames.back().tracked);
-    if (options.progress) options.progress(processed);
-  }
-  const double length = objectLength(start, truth.points.empty());
-  for (TrackerRun& run : result.runs) {
-    if (!run.frames.empty()) run.scores = scoresOf(run, length);
-  }
+  });
+  finish(objectLength(start, truth.points.empty()), result);
+  return result;
+}
+
+EvaluationResult scoreRecording(FrameSource& frames, const std::map<int, RecordedFrame>& recording,
+                                const GroundTruth& truth, const std::vector<cv::Point2d>& start,
+                                const EvaluationOptions& options) {
+  EvaluationResult result;
+  result.runs.push_back({"chain_tracker", {}, {}, ""});
+  forEachFrame(frames, options, result, [&](const SourceFrame& frame) {
+    const auto recorded = recording.find(frame.index);
+    if (recorded == recording.end()) {
+      ++result.dropped_frames;
+      return;
+    }
+    const auto& [time_ms, tracked] = recorded->second;
+    result.runs.front().frames.push_back(
+        {frame.index, time_ms, tracked, scoreFrame(tracked, truth, frame.index)});
+    if (options.observer) options.observer(frame, tracked);
+  });
+  finish(objectLength(start, truth.points.empty()), result);
   return result;
 }
 

@@ -11,15 +11,15 @@ namespace {
 
 const std::vector<SceneRecipe>& recipes() {
   static const std::vector<SceneRecipe> all{
-      {"bottle", paintWall, makeBottle},
-      {"box", paintDesk, makeBox},
-      {"robot_arm", paintWorkshop, makeRobotArm},
-      {"finger_pair", paintBookcase, makeFingerPair},
-      {"cable", paintDesk, makeCable},
-      {"suture", paintTissue, makeSuture},
-      {"guitar_string", paintDimRoom, makeGuitarString},
-      {"lips", paintDimRoom, makeLips},
-      {"plastic_bag", paintStreet, makePlasticBag},
+      {"bottle", "bottle", paintWall, makeBottle},
+      {"box", "box", paintDesk, makeBox},
+      {"robot_arm", "auto", paintWorkshop, makeRobotArm},
+      {"finger_pair", "auto", paintBookcase, makeFingerPair},
+      {"cable", "cable", paintDesk, makeCable},
+      {"suture", "cable", paintTissue, makeSuture},
+      {"guitar_string", "cable", paintDimRoom, makeGuitarString},
+      {"lips", "auto", paintDimRoom, makeLips},
+      {"plastic_bag", "box", paintStreet, makePlasticBag},
   };
   return all;
 }

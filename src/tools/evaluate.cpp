@@ -2,20 +2,15 @@
 /// Scores the chain tracker, beside OpenCV's trackers, on sequences and bags.
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
-#include <filesystem>
 #include <iostream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
-#include <ros/package.h>
 
 #include "chain_tracker/evaluation/evaluated_tracker.h"
-#include "common/evaluation_files.h"
 #include "common/evaluation_job.h"
 #include "common/evaluation_suite.h"
 
@@ -37,7 +32,6 @@ struct Options {
   int parallel_jobs = 1;
   std::vector<double> coordinates;
   double min_iou = std::nan("");
-  bool report = true;
 };
 
 std::vector<cv::Point2d> pointsOf(const std::vector<double>& coordinates) {
@@ -59,7 +53,16 @@ void addOptions(CLI::App& app, Options& options) {
   auto* suite = app.add_option("--suite", options.suite, "Folder of sequence folders: runs all");
   sequence->excludes(bag)->excludes(suite);
   bag->excludes(suite);
-  app.add_option("--topic", job.topic, "Image topic of the bag")->needs(bag);
+  auto* topic = app.add_option("--topic", job.topic, "Image topic of the bag")->needs(bag);
+  bag->needs(topic);
+  auto* recording =
+      app.add_option("--recording", job.recording,
+                     "Bag of the objects a live tracker published on the images of --bag: scores "
+                     "these instead of running the tracker")
+          ->needs(bag);
+  app.add_option("--recorded-topic", job.recorded_topic, "Topic of the objects in that bag")
+      ->capture_default_str()
+      ->needs(recording);
   app.add_option("--ground-truth", job.ground_truth,
                  "groundtruth_rect.txt or groundtruth_parts.csv, or a recorded TrackedObjectArray "
                  "topic of the bag (default: the sequence folder's)")
@@ -70,50 +73,41 @@ void addOptions(CLI::App& app, Options& options) {
       ->excludes(suite);
   app.add_option("--baselines", job.baselines, "OpenCV's trackers to compare with")
       ->delimiter(',')
+      ->excludes(recording)
       ->check(CLI::IsMember(chain_tracker::baselineNames()));
   app.add_option("--max-frames", job.max_frames, "Stop after so many frames (0: all)")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--jobs", options.parallel_jobs, "Sequences of a suite run at once")
       ->check(CLI::PositiveNumber)
       ->needs(suite);
-  app.add_option("--min-iou", options.min_iou, "Exit with 1 if the mean IoU is below");
+  app.add_option("--min-iou", options.min_iou,
+                 "Exit with 1 if the mean IoU (of a suite: over its sequences) is below");
   app.add_flag("--video", job.video, "Write overlay.mp4");
-  app.add_flag("!--no-report", options.report, "Do not draw report.html");
+  app.add_flag("!--no-report", job.report, "Do not draw report.html");
   app.add_option("--out", job.out, "Folder to write")->required();
 }
 
-void drawReport(const std::string& folder) {
-  const std::string script = ros::package::getPath("chain_tracker") + "/scripts/evaluation_report";
-  const std::string command = "/usr/bin/python3 '" + script + "' '" + folder + "'";
-  if (std::system(command.c_str()) != 0) {
-    std::cerr << "evaluate: no report: " << command << " failed\n";
-  }
-}
-
-int judge(const nlohmann::json& summary, double min_iou) {
+int judge(const nlohmann::json& mean_iou, bool complete, double min_iou) {
+  if (!complete) return kBadInput;
   if (std::isnan(min_iou)) return kGood;
-  const auto& iou = summary["mean_iou"];
-  return !iou.is_null() && iou.get<double>() >= min_iou ? kGood : kBelowThreshold;
+  return !mean_iou.is_null() && mean_iou.get<double>() >= min_iou ? kGood : kBelowThreshold;
 }
 
-int run(Options& options, const std::string& program) {
+int run(Options& options) {
   EvaluationJob& job = options.job;
+  const auto is_interrupted = [] { return interrupted != 0; };
   cv::setNumThreads(1);
   if (!options.suite.empty()) {
-    return chain_tracker::runSuite(options.suite, job, options.parallel_jobs, program) ? kGood
-                                                                                       : kBadInput;
+    const chain_tracker::SuiteResult result =
+        chain_tracker::runSuite(options.suite, job, options.parallel_jobs, is_interrupted);
+    return judge(result.mean_iou, result.complete, options.min_iou);
   }
   if (job.sequence.empty() && job.bag.empty()) {
     throw std::invalid_argument("one of --sequence, --bag and --suite is needed");
   }
-  if (!job.bag.empty() && job.topic.empty()) {
-    throw std::invalid_argument("--bag needs --topic");
-  }
   job.points = pointsOf(options.coordinates);
-  const nlohmann::json summary = chain_tracker::runJob(job, [] { return interrupted != 0; });
-  std::cout << chain_tracker::tableOf(summary);
-  if (options.report) drawReport(job.out);
-  return judge(summary, options.min_iou);
+  const nlohmann::json summary = chain_tracker::runJob(job, is_interrupted);
+  return judge(summary["mean_iou"], !summary["interrupted"], options.min_iou);
 }
 
 }  // namespace
@@ -121,6 +115,10 @@ int run(Options& options, const std::string& program) {
 int main(int argc, char** argv) {
   CLI::App app(
       "Scores the chain tracker, beside OpenCV's trackers, on a sequence, a bag or a suite.");
+  app.footer(
+      "Writes objects.csv, parts.csv, points.csv, scores.csv, summary.json and report.html.\n"
+      "Exit codes: 0 good; 1 below --min-iou; 2 wrong usage, bad input or interrupted (what there "
+      "is by then is written).");
   Options options;
   addOptions(app, options);
   try {
@@ -130,7 +128,7 @@ int main(int argc, char** argv) {
   }
   std::signal(SIGINT, onInterrupt);
   try {
-    return run(options, std::filesystem::read_symlink("/proc/self/exe").string());
+    return run(options);
   } catch (const std::exception& error) {
     std::cerr << "evaluate: " << error.what() << "\n";
     return kBadInput;

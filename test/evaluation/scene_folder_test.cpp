@@ -66,7 +66,7 @@ TEST_F(SceneFolder, HoldsPicturesAndTruth) {
                                             forearm.translation.y, forearm.angle, forearm.scale));
   const std::vector<std::string> init = linesOf(folder_ / "init.yaml");
   ASSERT_EQ(init.size(), 3U);
-  EXPECT_EQ(init[0], "model: robot_arm");
+  EXPECT_EQ(init[0], "model: " + scene->model());
   EXPECT_EQ(init[1].rfind("points: [[", 0), 0U) << init[1];
   EXPECT_EQ(init[2], "first_frame: 0");
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 
@@ -63,7 +64,10 @@ TEST_P(EveryScene, HasItsModelAndItsPoints) {
       {"suture", 40}, {"lips", 12}, {"guitar_string", 30}, {"plastic_bag", 4}};
   const std::map<std::string, size_t> segments{{"robot_arm", 3}, {"finger_pair", 4}};
   const auto scene = clean();
-  EXPECT_EQ(scene->model(), GetParam());
+  const std::filesystem::path models = CHAIN_TRACKER_SOURCE_DIR "/config/models";
+  EXPECT_TRUE(scene->model() == "auto" ||
+              std::filesystem::exists(models / (scene->model() + ".yaml")))
+      << scene->model();
   const SceneFrame frame = scene->render(40);
   EXPECT_EQ(frame.points.size(), points.at(GetParam()));
   EXPECT_EQ(frame.visible.size(), frame.points.size());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,10 +27,17 @@ struct TrackerRun {
   std::string name;
   std::vector<EvaluatedFrame> frames;
   Scores scores;
+  std::string fault;  ///< the first of the tracker's failures; empty if there was none
+};
+
+/// What a tracker reported of a frame when it ran elsewhere.
+struct RecordedFrame {
+  double time_ms = 0.0;
+  TrackedFrame tracked;
 };
 
 struct EvaluationOptions {
-  int first_frame = 0;
+  int first_frame = 0;                      ///< where the object is given
   int max_frames = 0;                       ///< 0: all
   std::function<bool()> interrupted;        ///< asked before every frame; true ends the run
   std::function<void(int frame)> progress;  ///< after every frame
@@ -39,8 +47,9 @@ struct EvaluationOptions {
 
 struct EvaluationResult {
   std::vector<TrackerRun> runs;     ///< in the order of the trackers
-  std::vector<std::string> faults;  ///< of frames that could not be read, one line each
-  int skipped_frames = 0;
+  std::vector<std::string> faults;  ///< of frames and trackers, one line each
+  int skipped_frames = 0;           ///< could not be read or had another size than the first
+  int dropped_frames = 0;           ///< of a recording: could be read, but nothing was reported
   bool interrupted = false;
 };
 
@@ -48,10 +57,19 @@ struct EvaluationResult {
 /// `start`: the shape that initialised them, whose length the PCK refers to.
 /// Where the truth has points but no boxes, boxes are the upright bounds of the visible points
 /// grown by 10 %, for the truth and for the carried points alike.
+/// A tracker that fails on a frame has lost the object there; the first such fault is told.
+/// Throws std::invalid_argument if the frame that the object is given in cannot be read or does not
+/// exist, or if the chain tracker cannot be started there.
 EvaluationResult evaluate(FrameSource& frames,
                           const std::vector<std::unique_ptr<EvaluatedTracker>>& trackers,
                           const GroundTruth& truth, const std::vector<cv::Point2d>& start,
                           const EvaluationOptions& options);
+
+/// Scores what a chain tracker reported of some of the frames, by their index, when it ran
+/// elsewhere. Times of the frames are the recorded ones. Throws as evaluate() does.
+EvaluationResult scoreRecording(FrameSource& frames, const std::map<int, RecordedFrame>& recording,
+                                const GroundTruth& truth, const std::vector<cv::Point2d>& start,
+                                const EvaluationOptions& options);
 
 /// Upright bounds of points grown by 10 % of their size, at least a pixel wide: the box that stands
 /// for a shape known by its points only.

@@ -34,7 +34,7 @@ class SyntheticScene {
  public:
   virtual ~SyntheticScene() = default;
 
-  /// Name of the model that tracks this object.
+  /// Name of the model that tracks this object, or "auto".
   virtual std::string model() const = 0;
 
   /// Frame `index`, >= 0; beyond options.frames the motion goes on. O(pixels).

@@ -2,70 +2,23 @@
 #include "bag_frames.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <sstream>
-#include <stdexcept>
-#include <utility>
 
-#include <cv_bridge/cv_bridge.h>
 #include <opencv2/imgcodecs.hpp>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
-#include <sensor_msgs/image_encodings.h>
 
-#include "chain_tracker/TrackedObjectArray.h"
+#include "bag_topic.h"
+#include "chain_tracker/ros/image_conversion.h"
 
 namespace chain_tracker {
 namespace {
 
 constexpr const char* kImageType = "sensor_msgs/Image";
 constexpr const char* kCompressedType = "sensor_msgs/CompressedImage";
-constexpr const char* kTruthType = "chain_tracker/TrackedObjectArray";
 /// A pause this many times the usual one between frames counts as a gap.
 constexpr double kGapFactor = 2.5;
-
-/// An open bag with the messages of one topic.
-class BagTopic {
- public:
-  BagTopic(const std::string& path, const std::string& topic, const std::set<std::string>& types) {
-    try {
-      bag_.open(path, rosbag::bagmode::Read);
-    } catch (const rosbag::BagUnindexedException&) {
-      throw std::invalid_argument(path +
-                                  " has no index, as a recording cut off has: repair it "
-                                  "with `rosbag reindex " +
-                                  path + "`");
-    } catch (const rosbag::BagException& error) {
-      throw std::invalid_argument(path + " cannot be read as a bag: " + error.what());
-    }
-    requireTopic(path, topic, types);
-    view_.addQuery(bag_, rosbag::TopicQuery(topic));
-  }
-
-  rosbag::View& view() { return view_; }
-
- private:
-  void requireTopic(const std::string& path, const std::string& topic,
-                    const std::set<std::string>& types) {
-    rosbag::View all(bag_);
-    std::string known;
-    for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
-      if (types.count(connection->datatype) == 0) continue;
-      if (connection->topic == topic) return;
-      known += (known.empty() ? "" : ", ") + connection->topic;
-    }
-    std::string wanted;
-    for (const std::string& type : types) wanted += (wanted.empty() ? "" : " or ") + type;
-    throw std::invalid_argument(path + " has no topic '" + topic + "' of type " + wanted +
-                                "; topics of that type: " + (known.empty() ? "none" : known));
-  }
-
-  rosbag::Bag bag_;
-  rosbag::View view_;
-};
 
 const std::set<std::string> kImageTypes = {kImageType, kCompressedType};
 
@@ -83,7 +36,7 @@ ImageMessage decode(const rosbag::MessageInstance& message, bool with_pixels) {
       decoded.header = raw->header;
       decoded.encoding = raw->encoding;
       if (!with_pixels) return decoded;
-      decoded.image = cv_bridge::toCvCopy(raw, sensor_msgs::image_encodings::BGR8)->image;
+      decoded.image = toBgr8(raw)->image.clone();  // which may share the message's memory
     } else if (const auto compressed = message.instantiate<sensor_msgs::CompressedImage>()) {
       decoded.header = compressed->header;
       decoded.encoding = compressed->format;
@@ -106,17 +59,18 @@ class BagSource : public FrameSource {
     if (next_ == topic_.view().end()) return false;
     const ImageMessage message = decode(*next_, true);
     frame = {index_, message.header.stamp.toSec(), message.image, message.fault};
+    if (!frame.fault.empty()) {
+      frame.fault = "frame " + std::to_string(index_) + ", a " + frame.fault;
+    }
     ++next_;
     ++index_;
     return true;
   }
 
-  int count() const override {
-    return static_cast<int>(const_cast<BagTopic&>(topic_).view().size());
-  }
+  int count() const override { return static_cast<int>(topic_.view().size()); }
 
  private:
-  BagTopic topic_;
+  mutable BagTopic topic_;  // a view counts its messages when it is asked
   rosbag::View::iterator next_;
   int index_ = 0;
 };
@@ -177,28 +131,15 @@ std::vector<std::string> checkBag(const std::string& bag, const std::string& top
   return findings;
 }
 
-GroundTruth readTruthTopic(const std::string& bag, const std::string& truth_topic,
-                           const std::string& image_topic) {
-  std::map<ros::Time, int> frame_of;
-  BagTopic images(bag, image_topic, kImageTypes);
+std::map<ros::Time, int> indexByStamp(const std::string& bag, const std::string& topic) {
+  std::map<ros::Time, int> index_of;
+  BagTopic images(bag, topic, kImageTypes);
+  int index = 0;
   for (const rosbag::MessageInstance& message : images.view()) {
-    const int index = static_cast<int>(frame_of.size());
-    frame_of.emplace(decode(message, false).header.stamp, index);
+    index_of.emplace(decode(message, false).header.stamp, index);
+    ++index;
   }
-  GroundTruth truth;
-  BagTopic recorded(bag, truth_topic, {kTruthType});
-  for (const rosbag::MessageInstance& message : recorded.view()) {
-    const auto array = message.instantiate<TrackedObjectArray>();
-    const auto frame = frame_of.find(array->header.stamp);
-    if (frame == frame_of.end() || array->objects.empty()) continue;
-    const TrackedObject& object = array->objects.front();
-    if (object.state == TrackedObject::LOST) continue;
-    for (std::size_t k = 0; k < object.points.size(); ++k) {
-      const TrackedPoint& point = object.points[k];
-      truth.points[frame->second][static_cast<int>(k)] = {{point.x, point.y}, point.visible != 0};
-    }
-  }
-  return truth;
+  return index_of;
 }
 
 }  // namespace chain_tracker

@@ -74,25 +74,25 @@ void writeScores(const EvaluationResult& result, const std::string& folder) {
   }
 }
 
-std::string text(const json& value, int decimals) {
+void appendLine(const std::string& name, const json& scores, std::ostringstream& table) {
+  table << std::left << std::setw(15) << name << std::right << std::setw(8)
+        << figure(scores["mean_iou"], 3) << std::setw(8) << figure(scores["success_auc"], 3)
+        << std::setw(8) << figure(scores["pascal_50"], 3) << std::setw(8)
+        << figure(scores["precision_20px"], 3) << std::setw(9)
+        << figure(scores["mean_center_error_px"], 1) << std::setw(9)
+        << figure(scores["part_error_px"]["mean"], 1) << std::setw(8) << figure(scores["pck_10"], 3)
+        << std::setw(7) << scores["lost_frames"].get<int>() << std::setw(8)
+        << figure(scores["fps"], 0) << "\n";
+}
+
+}  // namespace
+
+std::string figure(const json& value, int decimals) {
   if (value.is_null()) return "-";
   std::ostringstream stream;
   stream << std::fixed << std::setprecision(decimals) << value.get<double>();
   return stream.str();
 }
-
-void appendLine(const std::string& name, const json& scores, std::ostringstream& table) {
-  table << std::left << std::setw(15) << name << std::right << std::setw(8)
-        << text(scores["mean_iou"], 3) << std::setw(8) << text(scores["success_auc"], 3)
-        << std::setw(8) << text(scores["pascal_50"], 3) << std::setw(8)
-        << text(scores["precision_20px"], 3) << std::setw(9)
-        << text(scores["mean_center_error_px"], 1) << std::setw(9)
-        << text(scores["part_error_px"]["mean"], 1) << std::setw(8) << text(scores["pck_10"], 3)
-        << std::setw(7) << scores["lost_frames"].get<int>() << std::setw(8)
-        << text(scores["fps"], 0) << "\n";
-}
-
-}  // namespace
 
 json toJson(const Scores& scores) {
   return {{"frames", scores.frames},
@@ -120,6 +120,7 @@ json summaryOf(const EvaluationResult& result, const std::string& sequence,
   summary["sequence"] = sequence;
   summary["model"] = model;
   summary["skipped_frames"] = result.skipped_frames;
+  summary["dropped_frames"] = result.dropped_frames;
   summary["faults"] = result.faults;
   summary["interrupted"] = result.interrupted;
   summary["baselines"] = json::object();

@@ -22,6 +22,9 @@ nlohmann::json summaryOf(const EvaluationResult& result, const std::string& sequ
 void writeResults(const EvaluationResult& result, const nlohmann::json& summary,
                   const std::string& folder);
 
+/// A figure of a summary for people; "-" where there is none.
+std::string figure(const nlohmann::json& value, int decimals);
+
 /// The table of a summary for people, one tracker a line.
 std::string tableOf(const nlohmann::json& summary);
 

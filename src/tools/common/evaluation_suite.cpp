@@ -3,24 +3,19 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iomanip>
 #include <iostream>
 #include <mutex>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-
 #include "chain_tracker/evaluation/ground_truth.h"
-
-extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves it to programs
+#include "child_process.h"
+#include "evaluation_files.h"
 
 namespace chain_tracker {
 namespace {
@@ -30,8 +25,8 @@ using nlohmann::json;
 
 struct SuiteEntry {
   std::string name;
-  json summary;       ///< null unless done
-  std::string fault;  ///< why it was not done
+  json summary;       ///< null if nothing was written
+  std::string fault;  ///< why it was not done to its end
   bool startable = true;
 };
 
@@ -70,27 +65,9 @@ std::vector<std::string> commandOf(const std::string& program, const std::string
   if (job.max_frames > 0) {
     command.insert(command.end(), {"--max-frames", std::to_string(job.max_frames)});
   }
-  if (job.video) command.push_back("--video");
+  if (job.video) command.emplace_back("--video");
+  if (!job.report) command.emplace_back("--no-report");
   return command;
-}
-
-/// Runs a command with its output in a file; returns its exit code.
-int runCommand(const std::vector<std::string>& command, const std::string& log) {
-  std::vector<char*> arguments;
-  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, 1, 2);
-  pid_t child = 0;
-  const int failed =
-      posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return -1;
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 std::string lastLine(const std::string& path) {
@@ -103,8 +80,14 @@ std::string lastLine(const std::string& path) {
   return last;
 }
 
-void runEntry(const std::string& suite, const EvaluationJob& job, const std::string& program,
-              SuiteEntry& entry) {
+/// What the run wrote, if it came so far; null otherwise.
+json readSummary(const std::string& path) {
+  std::ifstream file(path);
+  return file ? json::parse(file) : json(nullptr);
+}
+
+void runEntry(const std::string& suite, const EvaluationJob& job,
+              const std::function<bool()>& interrupted, SuiteEntry& entry) {
   const std::string sequence = suite + "/" + entry.name;
   if (!canStart(sequence)) {
     entry.startable = false;
@@ -112,21 +95,13 @@ void runEntry(const std::string& suite, const EvaluationJob& job, const std::str
     return;
   }
   const std::string out = job.out + "/" + entry.name;
-  fs::create_directories(out);
   const std::string log = out + "/log.txt";
-  const int code = runCommand(commandOf(program, sequence, job, out), log);
-  if (code == 0) {
-    entry.summary = json::parse(std::ifstream(out + "/summary.json"));
-  } else {
-    entry.fault = lastLine(log);
-  }
-}
-
-std::string text(const json& value, int decimals) {
-  if (value.is_null()) return "-";
-  std::ostringstream stream;
-  stream << std::fixed << std::setprecision(decimals) << value.get<double>();
-  return stream.str();
+  fs::create_directories(out);
+  fs::remove(out + "/summary.json");  // of an earlier run
+  const std::string program = fs::read_symlink("/proc/self/exe").string();
+  const int code = runChild(commandOf(program, sequence, job, out), log, interrupted);
+  entry.summary = readSummary(out + "/summary.json");
+  if (code != 0) entry.fault = interrupted() ? "interrupted" : lastLine(log);
 }
 
 /// Header and one row a sequence, in columns: sequence, model, frames, IoU of every tracker, then
@@ -145,14 +120,16 @@ std::vector<std::vector<std::string>> tableRows(const std::vector<SuiteEntry>& e
       continue;
     }
     const json& s = entry.summary;
-    std::vector<std::string> row = {entry.name, s["model"].get<std::string>(),
-                                    std::to_string(s["frames"].get<int>()), text(s["mean_iou"], 3)};
+    const std::string note = entry.fault.empty() ? "" : " (" + entry.fault + ")";
+    std::vector<std::string> row = {entry.name + note, s["model"].get<std::string>(),
+                                    std::to_string(s["frames"].get<int>()),
+                                    figure(s["mean_iou"], 3)};
     for (const std::string& name : baselines) {
-      row.push_back(text(s["baselines"][name]["mean_iou"], 3));
+      row.push_back(figure(s["baselines"][name]["mean_iou"], 3));
     }
-    row.insert(row.end(), {text(s["success_auc"], 3), text(s["precision_20px"], 3),
-                           text(s["part_error_px"]["mean"], 1), text(s["pck_10"], 3),
-                           std::to_string(s["lost_frames"].get<int>()), text(s["fps"], 0)});
+    row.insert(row.end(), {figure(s["success_auc"], 3), figure(s["precision_20px"], 3),
+                           figure(s["part_error_px"]["mean"], 1), figure(s["pck_10"], 3),
+                           std::to_string(s["lost_frames"].get<int>()), figure(s["fps"], 0)});
     rows.push_back(row);
   }
   return rows;
@@ -174,13 +151,13 @@ json meanOf(const std::vector<SuiteEntry>& entries, const std::string& baseline,
 
 std::vector<std::string> meanRow(const std::vector<SuiteEntry>& entries,
                                  const std::vector<std::string>& baselines) {
-  std::vector<std::string> row = {"mean", "", "", text(meanOf(entries, "", "mean_iou"), 3)};
+  std::vector<std::string> row = {"mean", "", "", figure(meanOf(entries, "", "mean_iou"), 3)};
   for (const std::string& name : baselines) {
-    row.push_back(text(meanOf(entries, name, "mean_iou"), 3));
+    row.push_back(figure(meanOf(entries, name, "mean_iou"), 3));
   }
-  row.insert(row.end(), {text(meanOf(entries, "", "success_auc"), 3),
-                         text(meanOf(entries, "", "precision_20px"), 3), "",
-                         text(meanOf(entries, "", "pck_10"), 3), "", ""});
+  row.insert(row.end(), {figure(meanOf(entries, "", "success_auc"), 3),
+                         figure(meanOf(entries, "", "precision_20px"), 3), "",
+                         figure(meanOf(entries, "", "pck_10"), 3), "", ""});
   return row;
 }
 
@@ -209,8 +186,8 @@ std::string csv(const std::vector<std::vector<std::string>>& rows) {
 json jsonOf(const std::vector<SuiteEntry>& entries) {
   json suite = json::array();
   for (const SuiteEntry& entry : entries) {
-    suite.push_back(entry.summary.is_null() ? json{{"sequence", entry.name}, {"fault", entry.fault}}
-                                            : entry.summary);
+    suite.push_back(entry.summary.is_null() ? json{{"sequence", entry.name}} : entry.summary);
+    if (!entry.fault.empty()) suite.back()["fault"] = entry.fault;
   }
   return suite;
 }
@@ -220,26 +197,59 @@ void writeText(const std::string& path, const std::string& content) {
   if (!(file << content)) throw std::runtime_error(path + " cannot be written");
 }
 
-}  // namespace
+/// One line for each sequence that has ended, with the time that the others may take.
+class SuiteProgress {
+ public:
+  explicit SuiteProgress(std::size_t total)
+      : total_(total), start_(std::chrono::steady_clock::now()) {}
 
-bool runSuite(const std::string& suite, const EvaluationJob& job, int parallel_jobs,
-              const std::string& program) {
-  std::vector<SuiteEntry> entries;
-  for (const std::string& name : foldersIn(suite)) entries.push_back({name, nullptr, "", true});
-  fs::create_directories(job.out);
+  void report(const SuiteEntry& entry) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++done_;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    const double left = elapsed.count() / double(done_) * double(total_ - done_);
+    std::cerr << "[" << done_ << "/" << total_ << "] " << entry.name << ": "
+              << (entry.fault.empty() ? "done" : entry.fault);
+    if (done_ < total_) std::cerr << ", about " << std::lround(left) << " s left";
+    std::cerr << std::endl;
+  }
+
+ private:
+  std::size_t total_;
+  std::chrono::steady_clock::time_point start_;
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+};
+
+void runEntries(const std::string& suite, const EvaluationJob& job, int parallel_jobs,
+                const std::function<bool()>& interrupted, std::vector<SuiteEntry>& entries) {
   std::atomic<std::size_t> next{0};
-  std::mutex output;
+  SuiteProgress progress(entries.size());
   const auto work = [&] {
     for (std::size_t i = next++; i < entries.size(); i = next++) {
-      runEntry(suite, job, program, entries[i]);
-      const std::lock_guard<std::mutex> lock(output);
-      std::cerr << entries[i].name << ": "
-                << (entries[i].summary.is_null() ? entries[i].fault : "done") << "\n";
+      SuiteEntry& entry = entries[i];
+      try {
+        if (interrupted()) throw std::runtime_error("not begun: interrupted");
+        runEntry(suite, job, interrupted, entry);
+      } catch (const std::exception& error) {
+        entry.fault = error.what();
+      }
+      progress.report(entry);
     }
   };
   std::vector<std::thread> workers;
   for (int i = 0; i < parallel_jobs; ++i) workers.emplace_back(work);
   for (std::thread& worker : workers) worker.join();
+}
+
+}  // namespace
+
+SuiteResult runSuite(const std::string& suite, const EvaluationJob& job, int parallel_jobs,
+                     const std::function<bool()>& interrupted) {
+  std::vector<SuiteEntry> entries;
+  for (const std::string& name : foldersIn(suite)) entries.push_back({name, nullptr, "", true});
+  fs::create_directories(job.out);
+  runEntries(suite, job, parallel_jobs, interrupted, entries);
 
   std::vector<std::vector<std::string>> rows = tableRows(entries, job.baselines);
   rows.push_back(meanRow(entries, job.baselines));
@@ -247,9 +257,10 @@ bool runSuite(const std::string& suite, const EvaluationJob& job, int parallel_j
   writeText(job.out + "/suite.csv", csv(rows));
   writeText(job.out + "/suite.json", jsonOf(entries).dump(2) + "\n");
   std::cout << markdown(rows);
-  return std::all_of(entries.begin(), entries.end(), [](const SuiteEntry& entry) {
-    return !entry.summary.is_null() || !entry.startable;
+  const bool complete = std::all_of(entries.begin(), entries.end(), [](const SuiteEntry& entry) {
+    return entry.fault.empty() || !entry.startable;
   });
+  return {complete, meanOf(entries, "", "mean_iou")};
 }
 
 }  // namespace chain_tracker
