@@ -68,7 +68,8 @@ void addOptions(CLI::App& app, Options& options) {
                  "topic of the bag (default: the sequence folder's)")
       ->excludes(suite);
   app.add_option("--model", job.model, "Model: name, YAML file or auto (default: init.yaml's)");
-  app.add_option("--points", options.coordinates, "Where the object is: x,y,x,y,...")
+  app.add_option("--points", options.coordinates,
+                 "Where the object is in frame 0: x,y,x,y,... [px]")
       ->delimiter(',')
       ->excludes(suite);
   app.add_option("--baselines", job.baselines, "OpenCV's trackers to compare with")

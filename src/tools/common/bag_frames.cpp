@@ -119,6 +119,7 @@ std::vector<std::string> checkBag(const std::string& bag, const std::string& top
   std::set<std::string> encodings;
   for (const rosbag::MessageInstance& message : images.view()) {
     const ImageMessage decoded = decode(message, false);
+    if (!decoded.fault.empty()) continue;  // the run will tell of it
     stamps.push_back(decoded.header.stamp.toSec());
     frame_ids.insert(decoded.header.frame_id);
     encodings.insert(decoded.encoding);

@@ -113,7 +113,10 @@ Input openSequence(const EvaluationJob& job) {
 
 SequenceStart startOf(const EvaluationJob& job, const Input& input) {
   SequenceStart start = input.start.value_or(SequenceStart());
-  if (!job.points.empty()) start.points = job.points;
+  if (!job.points.empty()) {
+    start.points = job.points;
+    start.first_frame = 0;
+  }
   if (!job.model.empty()) start.model = job.model;
   if (start.points.empty()) {
     throw std::invalid_argument(
@@ -183,10 +186,11 @@ EvaluationResult runTrackers(const EvaluationJob& job, const Input& input,
                   options);
 }
 
-/// The script lies beside the programs, in the devel space as in the install space.
-void drawReport(const std::string& folder, const std::function<bool()>& interrupted) {
+/// The script lies beside the programs, in the devel space as in the install space. It is drawn
+/// for an interrupted run, too: that is what there is.
+void drawReport(const std::string& folder) {
   const fs::path script = fs::read_symlink("/proc/self/exe").parent_path() / "evaluation_report";
-  if (runChild({script.string(), folder}, "", interrupted) == 0) return;
+  if (runChild({script.string(), folder}, "", [] { return false; }) == 0) return;
   warn("no report.html: " + script.string() + " " + folder + " failed");
 }
 
@@ -216,7 +220,7 @@ nlohmann::json runJob(const EvaluationJob& job, const std::function<bool()>& int
   writeResults(result, summary, job.out);
   writeWorstFrames(*openSource(job), result, input.truth, job.out + "/worst_frames.jpg");
   std::cout << tableOf(summary);
-  if (job.report) drawReport(job.out, interrupted);
+  if (job.report) drawReport(job.out);
   return summary;
 }
 

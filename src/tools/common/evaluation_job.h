@@ -19,7 +19,7 @@ struct EvaluationJob {
   std::string recorded_topic = "/chain_tracker/objects";  ///< of the objects in that bag
   std::string ground_truth;         ///< file, or topic of the bag; empty: the folder's
   std::string model;                ///< name, file, "auto" or empty: what the sequence says
-  std::vector<cv::Point2d> points;  ///< empty: what the sequence says
+  std::vector<cv::Point2d> points;  ///< in frame 0; empty: what the sequence says
   std::vector<std::string> baselines;
   int max_frames = 0;
   bool video = false;

@@ -203,14 +203,14 @@ class SuiteProgress {
   explicit SuiteProgress(std::size_t total)
       : total_(total), start_(std::chrono::steady_clock::now()) {}
 
-  void report(const SuiteEntry& entry) {
+  void report(const SuiteEntry& entry, bool interrupted) {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++done_;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     const double left = elapsed.count() / double(done_) * double(total_ - done_);
     std::cerr << "[" << done_ << "/" << total_ << "] " << entry.name << ": "
               << (entry.fault.empty() ? "done" : entry.fault);
-    if (done_ < total_) std::cerr << ", about " << std::lround(left) << " s left";
+    if (done_ < total_ && !interrupted) std::cerr << ", about " << std::lround(left) << " s left";
     std::cerr << std::endl;
   }
 
@@ -234,7 +234,7 @@ void runEntries(const std::string& suite, const EvaluationJob& job, int parallel
       } catch (const std::exception& error) {
         entry.fault = error.what();
       }
-      progress.report(entry);
+      progress.report(entry, interrupted());
     }
   };
   std::vector<std::thread> workers;
