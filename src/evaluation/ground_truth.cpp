@@ -53,6 +53,8 @@ bool hasNan(const std::vector<double>& numbers) {
   return std::any_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); });
 }
 
+bool isIndex(double number) { return number >= 0.0 && number == std::floor(number); }
+
 std::vector<cv::Point2d> cornersIn(const std::vector<double>& n) {
   return {{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}, {n[6], n[7]}};
 }
@@ -83,6 +85,10 @@ SequenceStart readInit(const std::string& path) {
         start.model = entry.second.as<std::string>();
       } else if (key == "first_frame") {
         start.first_frame = entry.second.as<int>();
+        if (start.first_frame < 0) {
+          refuse(path, entry.second.Mark().line + 1,
+                 "first_frame is " + std::to_string(start.first_frame) + ", must be at least 0");
+        }
       } else if (key == "points") {
         start.points = pointsIn(entry.second, path);
       } else {
@@ -134,7 +140,9 @@ void readPoints(const std::string& path, GroundTruth& truth) {
       refuse(path, number, "has " + std::to_string(n.size()) + " numbers, must have 5: " + header);
     }
     if (hasNan(n)) continue;
-    if (n[0] < 0.0 || n[1] < 0.0) refuse(path, number, "frame and part must not be negative");
+    if (!isIndex(n[0]) || !isIndex(n[1])) {
+      refuse(path, number, "frame and part must be whole numbers from 0 on");
+    }
     truth.points[static_cast<int>(n[0])][static_cast<int>(n[1])] = {{n[2], n[3]}, n[4] != 0.0};
   }
 }
