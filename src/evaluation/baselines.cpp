@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// OpenCV's trackers behind one interface. Their classes moved in OpenCV 4.5.1: MIL to the video
 /// module, KCF and CSRT to integer boxes, MedianFlow to the namespace legacy.
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -27,8 +28,6 @@ namespace cv_median_flow = cv;
 namespace chain_tracker {
 namespace {
 
-constexpr std::uint64_t kRandomState = 0x5eed;
-
 cv::Rect wholePixels(const cv::Rect2d& box) {
   return {cvRound(box.x), cvRound(box.y), cvRound(box.width), cvRound(box.height)};
 }
@@ -53,7 +52,10 @@ class OpenCvTracker : public EvaluatedTracker {
   std::string name() const override { return name_; }
 
   TrackedFrame start(const cv::Mat& image) override {
-    cv::theRNG().state = kRandomState;  // MIL draws from it
+    // MIL draws its features from the one and its samples from the other: give it what a program of
+    // its own would start with.
+    std::srand(1);
+    cv::theRNG() = cv::RNG();
     tracker_ = create_();
     tracker_->init(image, box_);
     return reportBox(true, box_, first_box_.width);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Renders a scene with exact ground truth as a sequence folder.
+/// Renders a scene with exact ground truth as a sequence folder or a bag.
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -10,6 +10,7 @@
 
 #include "chain_tracker/evaluation/scene_folder.h"
 #include "chain_tracker/evaluation/synthetic_scene.h"
+#include "common/scene_bag.h"
 
 namespace {
 
@@ -21,6 +22,7 @@ using BurstArguments = std::vector<std::tuple<int, int, double>>;
 struct Arguments {
   std::string scene = "bottle";
   std::string out;
+  std::string bag;
   SceneOptions options;
   BurstArguments shift_bursts;
   BurstArguments rotation_bursts;
@@ -84,7 +86,12 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--seed", arguments.options.seed, "Of texture, background and motion")
       ->capture_default_str();
   app.add_option("--frames", arguments.options.frames, "Number of frames")->capture_default_str();
-  app.add_option("--out", arguments.out, "Folder to write")->required();
+  CLI::Option_group* output = app.add_option_group("output");
+  output->add_option("--out", arguments.out, "Sequence folder to write");
+  output->add_option("--bag", arguments.bag,
+                     std::string("Bag to write: ") + chain_tracker::kSceneImageTopic +
+                         " and the truth on " + chain_tracker::kSceneTruthTopic);
+  output->require_option(1, 2);
   addMotionOptions(app, arguments);
   addCameraOptions(app, arguments.options);
   addStageOptions(app, arguments.options);
@@ -93,7 +100,7 @@ void addOptions(CLI::App& app, Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Renders a scene with exact ground truth as a sequence folder.");
+  CLI::App app("Renders a scene with exact ground truth as a sequence folder, a bag or both.");
   Arguments arguments;
   addOptions(app, arguments);
   try {
@@ -102,7 +109,10 @@ int main(int argc, char** argv) {
     options.shift_bursts = toBursts(arguments.shift_bursts);
     options.rotation_bursts = toBursts(arguments.rotation_bursts);
     const auto scene = chain_tracker::makeScene(arguments.scene, options);
-    chain_tracker::writeSceneFolder(*scene, options, arguments.out);
+    if (!arguments.out.empty()) {
+      chain_tracker::writeSceneFolder(*scene, options, arguments.out);
+    }
+    if (!arguments.bag.empty()) chain_tracker::writeSceneBag(*scene, options, arguments.bag);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   } catch (const std::exception& error) {

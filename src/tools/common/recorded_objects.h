@@ -21,8 +21,8 @@ std::string stateName(std::uint8_t state);
 class RecordedBox {
  public:
   /// As CarriedShape::box() would have it: an outline that was upright when the object was
-  /// initialised moves and rescales but does not turn, of another one these are the upright bounds.
-  /// Empty for a lost object.
+  /// initialised moves and rescales but does not turn, of another one, or
+  /// one of not just four corners, these are the upright bounds. Empty for a lost object.
   cv::Rect2d next(const TrackedObject& object);
 
  private:
