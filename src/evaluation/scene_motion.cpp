@@ -14,6 +14,8 @@ constexpr double kRatios[3] = {1.0, 1.7, 2.9};
 /// Frames over which a burst's shift fades, and in which the object leaves or comes back.
 constexpr int kFadeFrames = 90;
 constexpr double kLeavingFrames = 40.0;
+/// Of what is out of view [px]: room for blur.
+constexpr double kExitMargin = 10.0;
 
 /// From 0 to 1 without a jerk.
 double smoothStep(double x) {
@@ -122,9 +124,19 @@ PoseMotion::PoseMotion(const SceneOptions& options, const MotionRange& range, do
       growth_(1.0, rng),
       exit_(rng.uniform(0, 2) == 0 ? -1.0 : 1.0, 0.0),
       bursts_(options, rng) {
-  // Even from the far side of its range, shifted by a burst, at its largest.
-  const double farthest = 0.5 + std::abs(range.center.x - 0.5) + range.reach.x + 0.25;
-  exit_ *= options.size.width * farthest + radius * options.scale_range + 10.0;
+  exit_ *= exitDistance(radius);
+}
+
+double PoseMotion::exitDistance(double radius) const {
+  double distance = 0.0;
+  for (int frame = options_.leave_at; frame < options_.leave_at + options_.leave_for; ++frame) {
+    const Similarity pose = atHome(frame).image_from_object;
+    const double margin = radius * pose.scale + kExitMargin;
+    const double inside =
+        exit_.x > 0.0 ? options_.size.width - pose.translation.x : pose.translation.x;
+    distance = std::max(distance, inside + margin);
+  }
+  return distance;
 }
 
 cv::Point2d PoseMotion::awayAt(double frame) const {
@@ -136,6 +148,12 @@ cv::Point2d PoseMotion::awayAt(double frame) const {
 }
 
 ObjectState PoseMotion::at(double frame) const {
+  ObjectState state = atHome(frame);
+  state.image_from_object.translation += awayAt(frame);
+  return state;
+}
+
+ObjectState PoseMotion::atHome(double frame) const {
   const BurstPath::Step burst = bursts_.at(frame);
   const double time = burst.clock / kFramesPerTime;
   const double travel = time * options_.speed;
@@ -143,8 +161,7 @@ ObjectState PoseMotion::at(double frame) const {
                          options_.size.height * (range_.center.y + range_.reach.y * y_.at(travel)));
   const double turn = options_.rotation / turn_.fastestStep() * range_.turn * turn_.at(time);
   const Similarity pose{range_.angle + turn + burst.angle,
-                        std::pow(options_.scale_range, growth_.at(time)),
-                        home + burst.shift + awayAt(frame)};
+                        std::pow(options_.scale_range, growth_.at(time)), home + burst.shift};
   return {pose, travel, time};
 }
 

@@ -71,7 +71,11 @@ class PoseMotion {
   ObjectState at(double frame) const;
 
  private:
+  /// Without leaving the view.
+  ObjectState atHome(double frame) const;
   cv::Point2d awayAt(double frame) const;
+  /// Shift that just takes it out of view in all the frames that it is to be away [px].
+  double exitDistance(double radius) const;
 
   SceneOptions options_;
   MotionRange range_;

@@ -45,8 +45,8 @@ void addMotionOptions(CLI::App& app, Arguments& arguments) {
                  "START LENGTH RATE: shift by RATE px/frame and do nothing else; may be repeated");
   app.add_option("--rotation-burst", arguments.rotation_bursts,
                  "START LENGTH RATE: turn by RATE rad/frame and do nothing else; may be repeated");
-  app.add_option("--leave-at", options.leave_at, "First frame that the object is out of view");
-  app.add_option("--leave-for", options.leave_for, "Number of frames that it stays out of view");
+  app.add_option("--leave-at", options.leave_at, "Frame by which the object is out of view");
+  app.add_option("--leave-for", options.leave_for, "Frames that it stays out of view at least");
 }
 
 void addCameraOptions(CLI::App& app, SceneOptions& options) {
