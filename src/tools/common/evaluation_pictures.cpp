@@ -19,7 +19,10 @@ const cv::Scalar kLostColor(40, 40, 230);
 constexpr double kVideoRate = 30.0;
 constexpr std::size_t kWorstFrames = 8;
 constexpr int kStripColumns = 4;
-const cv::Size kStripCell(400, 300);
+constexpr int kCellWidth = 400;
+constexpr int kCellGap = 4;
+/// Frames of the filmstrip are at least this share of the sequence apart, or they look the same.
+constexpr double kApart = 0.02;
 
 void drawTruth(const GroundTruth& truth, int frame, int thickness, cv::Mat& canvas) {
   const auto box = truth.boxes.find(frame);
@@ -52,7 +55,7 @@ double badness(const FrameScore& score) {
   return score.point_errors.empty() ? -1.0 : mean(score.point_errors);
 }
 
-/// The worst frames, best known by their index.
+/// The worst frames by their index, each some way from the others.
 std::map<int, const EvaluatedFrame*> worstOf(const TrackerRun& run) {
   std::vector<const EvaluatedFrame*> ranked;
   for (const EvaluatedFrame& frame : run.frames) {
@@ -61,25 +64,29 @@ std::map<int, const EvaluatedFrame*> worstOf(const TrackerRun& run) {
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto* a, const auto* b) {
     return badness(a->score) > badness(b->score);
   });
-  ranked.resize(std::min(ranked.size(), kWorstFrames));
+  const int apart = static_cast<int>(kApart * static_cast<double>(run.frames.size()));
   std::map<int, const EvaluatedFrame*> worst;
-  for (const EvaluatedFrame* frame : ranked) worst[frame->index] = frame;
+  for (const EvaluatedFrame* frame : ranked) {
+    const auto next = worst.lower_bound(frame->index - apart);
+    if (next != worst.end() && next->first <= frame->index + apart) continue;
+    worst[frame->index] = frame;
+    if (worst.size() == kWorstFrames) break;
+  }
   return worst;
 }
 
+/// The pictures, all of one size, in rows.
 cv::Mat stripOf(const std::vector<cv::Mat>& cells) {
-  const int rows = (static_cast<int>(cells.size()) + kStripColumns - 1) / kStripColumns;
-  cv::Mat strip(rows * kStripCell.height, kStripColumns * kStripCell.width, CV_8UC3,
-                cv::Scalar::all(255));
+  const cv::Size cell(kCellWidth, kCellWidth * cells.front().rows / cells.front().cols);
+  const int columns = std::min(kStripColumns, static_cast<int>(cells.size()));
+  const int rows = (static_cast<int>(cells.size()) + columns - 1) / columns;
+  cv::Mat strip(rows * (cell.height + kCellGap) - kCellGap,
+                columns * (cell.width + kCellGap) - kCellGap, CV_8UC3, cv::Scalar::all(255));
   for (int i = 0; i < static_cast<int>(cells.size()); ++i) {
-    const cv::Mat& cell = cells[static_cast<std::size_t>(i)];
-    const double zoom =
-        std::min(double(kStripCell.width) / cell.cols, double(kStripCell.height) / cell.rows);
-    cv::Mat small;
-    cv::resize(cell, small, cv::Size(), zoom, zoom, cv::INTER_AREA);
-    const cv::Point corner((i % kStripColumns) * kStripCell.width,
-                           (i / kStripColumns) * kStripCell.height);
-    small.copyTo(strip(cv::Rect(corner, small.size())));
+    const cv::Point corner((i % columns) * (cell.width + kCellGap),
+                           (i / columns) * (cell.height + kCellGap));
+    cv::resize(cells[static_cast<std::size_t>(i)], strip(cv::Rect(corner, cell)), cell, 0.0, 0.0,
+               cv::INTER_AREA);
   }
   return strip;
 }
@@ -94,13 +101,13 @@ cv::Mat drawComparison(const SourceFrame& frame, const TrackedFrame& tracked,
   } else {
     cv::cvtColor(frame.image, canvas, cv::COLOR_GRAY2BGR);
   }
-  const int thickness = std::max(1, cvRound(canvas.cols / 500.0));
+  const int thickness = std::max(1, cvRound(canvas.cols / 320.0));
   drawTruth(truth, frame.index, thickness, canvas);
   if (!tracked.lost) drawTracked(tracked, thickness, canvas);
   const std::string label = std::to_string(frame.index) + " " + tracked.state + " " +
                             std::to_string(cvRound(100.0 * tracked.confidence)) + " %";
   cv::putText(canvas, label, {8, 14 + 12 * thickness}, cv::FONT_HERSHEY_SIMPLEX,
-              0.5 * thickness + 0.1, tracked.lost ? kLostColor : kTrackedColor, thickness + 1,
+              0.4 * thickness + 0.2, tracked.lost ? kLostColor : kTrackedColor, thickness + 1,
               cv::LINE_AA);
   return canvas;
 }

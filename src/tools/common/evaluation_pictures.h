@@ -26,8 +26,9 @@ class OverlayVideo {
   cv::VideoWriter writer_;
 };
 
-/// A filmstrip of the chain tracker's eight worst frames by overlap, or by point error where there
-/// is no overlap, in order of time. `frames` is read from its start. Nothing without truth.
+/// A filmstrip of the chain tracker's worst frames by overlap, or by point error where there is no
+/// overlap: up to eight, some way from each other, in order of time. `frames` is read from its
+/// start. Nothing without truth.
 void writeWorstFrames(FrameSource& frames, const EvaluationResult& result, const GroundTruth& truth,
                       const std::string& path);
 
