@@ -28,8 +28,14 @@ namespace cv_median_flow = cv;
 namespace chain_tracker {
 namespace {
 
+/// As int() does in the scripts that drive these trackers elsewhere.
 cv::Rect wholePixels(const cv::Rect2d& box) {
-  return {cvRound(box.x), cvRound(box.y), cvRound(box.width), cvRound(box.height)};
+  return {static_cast<int>(box.x), static_cast<int>(box.y), static_cast<int>(box.width),
+          static_cast<int>(box.height)};
+}
+
+cv::Rect insideOf(const cv::Mat& image, const cv::Rect& box) {
+  return box & cv::Rect(cv::Point(), image.size());
 }
 
 TrackedFrame reportBox(bool found, const cv::Rect2d& box, double first_width) {
@@ -57,8 +63,8 @@ class OpenCvTracker : public EvaluatedTracker {
     std::srand(1);
     cv::theRNG() = cv::RNG();
     tracker_ = create_();
-    tracker_->init(image, box_);
-    return reportBox(true, box_, first_box_.width);
+    tracker_->init(image, insideOf(image, first_box_));
+    return reportBox(true, first_box_, first_box_.width);
   }
 
   TrackedFrame update(const cv::Mat& image) override {
@@ -82,7 +88,7 @@ class CamShiftTracker : public EvaluatedTracker {
   std::string name() const override { return "camshift"; }
 
   TrackedFrame start(const cv::Mat& image) override {
-    const cv::Rect inside = first_box_ & cv::Rect(0, 0, image.cols, image.rows);
+    const cv::Rect inside = insideOf(image, first_box_);
     const auto [hue, mask] = hueOf(image);
     const int bins[] = {kBins};
     const int channels[] = {0};
@@ -110,9 +116,9 @@ class CamShiftTracker : public EvaluatedTracker {
   static constexpr int kBins = 16;
 
   static const float** ranges() {
-    static const float hue_range[] = {0.0F, 180.0F};
-    static const float* all[] = {hue_range};
-    return all;
+    static const float kHueRange[] = {0.0F, 180.0F};
+    static const float* ranges_of_channels[] = {kHueRange};
+    return ranges_of_channels;
   }
 
   static std::pair<cv::Mat, cv::Mat> hueOf(const cv::Mat& image) {
@@ -148,7 +154,7 @@ const std::map<std::string, Factory>& factories() {
 #else
   using Box = cv::Rect2d;
 #endif
-  static const std::map<std::string, Factory> all = {
+  static const std::map<std::string, Factory> kAll = {
     {"camshift", [](const cv::Rect& box) { return std::make_unique<CamShiftTracker>(box); }},
     {"mil", factoryOf<cv::TrackerMIL, Box>("mil")},
 #if CHAIN_TRACKER_HAS_CONTRIB
@@ -157,7 +163,7 @@ const std::map<std::string, Factory>& factories() {
     {"medianflow", factoryOf<cv_median_flow::TrackerMedianFlow, cv::Rect2d>("medianflow")},
 #endif
   };
-  return all;
+  return kAll;
 }
 
 }  // namespace

@@ -99,21 +99,21 @@ TrackedFrame nothingKnown() {
   return frame;
 }
 
-/// Lets the tracker see the frame; of the chain tracker, a start must succeed.
+/// Lets the tracker see the frame; of the chain tracker, a start must succeed. One that has failed
+/// is not asked again: OpenCV's may crash then.
 void process(EvaluatedTracker& tracker, const SourceFrame& frame, bool must_succeed,
              const GroundTruth& truth, TrackerRun& run) {
   EvaluatedFrame evaluated;
   evaluated.index = frame.index;
   const bool first = run.frames.empty();
+  evaluated.tracked = nothingKnown();
   evaluated.time_ms = timed([&] {
+    if (!run.fault.empty()) return;
     try {
       evaluated.tracked = first ? tracker.start(frame.image) : tracker.update(frame.image);
     } catch (const std::exception& error) {
       if (must_succeed) throw;
-      evaluated.tracked = nothingKnown();
-      if (run.fault.empty()) {
-        run.fault = run.name + " failed on " + nameOf(frame) + ": " + error.what();
-      }
+      run.fault = run.name + " failed on " + nameOf(frame) + ": " + error.what();
     }
   });
   evaluated.score = scoreFrame(evaluated.tracked, truth, frame.index);

@@ -58,7 +58,7 @@ std::vector<cv::Point2d> pointsFrom(const std::string& text) {
 }
 
 std::string requiredParam(const ros::NodeHandle& node, const std::string& key) {
-  const std::string value = node.param<std::string>(key, "");
+  std::string value = node.param<std::string>(key, "");
   if (!value.empty()) return value;
   throw std::invalid_argument("~" + key + " is missing");
 }

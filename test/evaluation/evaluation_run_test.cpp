@@ -225,14 +225,14 @@ TEST(EvaluationRun, AnInterruptedRunKeepsItsFrames) {
   EXPECT_TRUE(std::isnan(none.runs.front().scores.mean_iou));
 }
 
-TEST(EvaluationRun, ATrackerThatFailsHasLostTheObject) {
+TEST(EvaluationRun, ATrackerThatFailsHasLostTheObjectForGood) {
   Trackers trackers = only({at(0.0), at(0.0), at(0.0), at(0.0)});
   trackers.push_back(std::make_unique<FakeTracker>(
-      "other", std::vector<std::optional<TrackedFrame>>{at(0.0), {}, {}, at(0.0)}));
+      "other", std::vector<std::optional<TrackedFrame>>{at(0.0), {}, at(0.0), at(0.0)}));
   const auto result = run(FakeSource(4), trackers, boxesAt0({0, 1, 2, 3}));
   EXPECT_DOUBLE_EQ(result.runs[0].scores.mean_iou, 1.0);
-  EXPECT_DOUBLE_EQ(result.runs[1].scores.mean_iou, 0.5);
-  EXPECT_EQ(result.runs[1].scores.lost_frames, 2);
+  EXPECT_DOUBLE_EQ(result.runs[1].scores.mean_iou, 0.25);
+  EXPECT_EQ(result.runs[1].scores.lost_frames, 3);
   ASSERT_EQ(result.faults.size(), 1U) << "told once";
   EXPECT_EQ(result.faults[0], "other failed on frame 1: cannot");
 }

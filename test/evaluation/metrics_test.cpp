@@ -83,6 +83,23 @@ TEST(Metrics, FramesWithoutTruthDoNotCount) {
   EXPECT_DOUBLE_EQ(scores.mean_center_error_px, 16.0);
 }
 
+TEST(Metrics, PascalAsksForMoreThanHalf) {
+  const Scores scores = summarize({seen(0.5, 1.0), seen(0.51, 1.0)}, 100.0, {});
+  EXPECT_DOUBLE_EQ(scores.pascal_50, 0.5);
+}
+
+TEST(Metrics, WithoutTruthThereAreNoFigures) {
+  const Scores scores = summarize({FrameScore(), FrameScore()}, 100.0, {2.0});
+  EXPECT_EQ(scores.frames, 2);
+  EXPECT_EQ(scores.scored_frames, 0);
+  for (const double figure :
+       {scores.mean_iou, scores.success_auc, scores.pascal_50, scores.precision_20px,
+        scores.mean_center_error_px, scores.part_error_mean_px, scores.pck_10}) {
+    EXPECT_TRUE(std::isnan(figure));
+  }
+  EXPECT_DOUBLE_EQ(scores.fps, 500.0);
+}
+
 TEST(Metrics, ALostFrameCountsAsNoOverlapWhereThereIsAnObject) {
   const Scores scores = summarize({seen(0.8, 2.0), lostFrame()}, 100.0, {});
   EXPECT_DOUBLE_EQ(scores.mean_iou, 0.4);

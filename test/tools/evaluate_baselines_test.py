@@ -21,7 +21,7 @@ def mean_overlap(tracker, sequence):
     truth = [[float(x) for x in line.split(",")]
              for line in (sequence / "groundtruth_rect.txt").read_text().splitlines()]
     pictures = [cv2.imread(str(path)) for path in sorted((sequence / "img").iterdir())]
-    box = tuple(round(x) for x in truth[0])
+    box = tuple(int(x) for x in truth[0])
     tracker.init(pictures[0], box)
     overlaps = [overlap(box, truth[0])]
     for picture, true_box in zip(pictures[1:], truth[1:]):

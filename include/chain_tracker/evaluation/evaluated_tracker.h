@@ -45,8 +45,9 @@ std::unique_ptr<EvaluatedTracker> makeChainTracker(const ChainModel& model,
 /// where OpenCV was built with its contributed modules.
 std::vector<std::string> baselineNames();
 
-/// One of OpenCV's trackers with its default parameters, started at `box` rounded to whole pixels.
-/// Throws std::invalid_argument naming the tracker if it is not known or not built in.
+/// One of OpenCV's trackers with its default parameters, started at `box` cut to whole pixels and
+/// to the image, which they require. Throws std::invalid_argument naming the tracker if it is not
+/// known or not built in.
 std::unique_ptr<EvaluatedTracker> makeBaseline(const std::string& name, const cv::Rect2d& box);
 
 }  // namespace chain_tracker

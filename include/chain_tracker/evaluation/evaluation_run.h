@@ -27,7 +27,7 @@ struct TrackerRun {
   std::string name;
   std::vector<EvaluatedFrame> frames;
   Scores scores;
-  std::string fault;  ///< the first of the tracker's failures; empty if there was none
+  std::string fault;  ///< why the tracker failed; empty if it did not
 };
 
 /// What a tracker reported of a frame when it ran elsewhere.
@@ -57,7 +57,7 @@ struct EvaluationResult {
 /// `start`: the shape that initialised them, whose length the PCK refers to.
 /// Where the truth has points but no boxes, boxes are the upright bounds of the visible points
 /// grown by 10 %, for the truth and for the carried points alike.
-/// A tracker that fails on a frame has lost the object there; the first such fault is told.
+/// A tracker that fails on a frame has lost the object from there on; its fault is told.
 /// Throws std::invalid_argument if the frame that the object is given in cannot be read or does not
 /// exist, or if the chain tracker cannot be started there.
 EvaluationResult evaluate(FrameSource& frames,

@@ -97,7 +97,8 @@ std::vector<std::string> findGaps(const std::vector<double>& stamps) {
   for (std::size_t i = 1; i < stamps.size(); ++i) {
     const double step = stamps[i] - stamps[i - 1];
     std::ostringstream text;
-    if (step <= 0.0) text << "frame " << i << ": the stamp goes back by " << -step << " s";
+    if (step == 0.0) text << "frame " << i << ": the stamp is that of the frame before";
+    if (step < 0.0) text << "frame " << i << ": the stamp goes back by " << -step << " s";
     if (step > kGapFactor * usual) {
       text << "frame " << i << ": a gap of " << step << " s, usual are " << usual << " s";
     }

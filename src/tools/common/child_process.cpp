@@ -20,6 +20,7 @@ constexpr std::chrono::milliseconds kPollPeriod(20);
 /// Process id of the child, or -1.
 pid_t startChild(const std::vector<std::string>& command, const std::string& log) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;

@@ -216,7 +216,7 @@ nlohmann::json runJob(const EvaluationJob& job, const std::function<bool()>& int
   progress.finish();
   warnOfGaps(input, result, job);
   const std::string model = input.recording ? input.recording->model : start.model;
-  const nlohmann::json summary = summaryOf(result, input.name, model);
+  nlohmann::json summary = summaryOf(result, input.name, model);
   writeResults(result, summary, job.out);
   writeWorstFrames(*openSource(job), result, input.truth, job.out + "/worst_frames.jpg");
   std::cout << tableOf(summary);

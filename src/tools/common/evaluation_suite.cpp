@@ -238,6 +238,7 @@ void runEntries(const std::string& suite, const EvaluationJob& job, int parallel
     }
   };
   std::vector<std::thread> workers;
+  workers.reserve(static_cast<std::size_t>(parallel_jobs));
   for (int i = 0; i < parallel_jobs; ++i) workers.emplace_back(work);
   for (std::thread& worker : workers) worker.join();
 }
