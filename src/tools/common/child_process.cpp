@@ -52,7 +52,7 @@ int runChild(const std::vector<std::string>& command, const std::string& log,
     }
     std::this_thread::sleep_for(kPollPeriod);
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 }  // namespace chain_tracker

@@ -10,7 +10,8 @@ namespace chain_tracker {
 /// Runs a program and waits for it; `command` is its path and its arguments, no shell is involved.
 /// Both its outputs go to the file `log`, or where this program's go if that is empty. Once
 /// `interrupted` tells so, the child is sent SIGINT as well and given the time that it takes to
-/// end. Returns its exit code, or -1 if it could not be started or was killed.
+/// end. Returns its exit code, 128 and the number of the signal that killed it, or -1 if it could
+/// not be started.
 int runChild(const std::vector<std::string>& command, const std::string& log,
              const std::function<bool()>& interrupted);
 

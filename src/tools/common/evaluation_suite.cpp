@@ -23,6 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr int kBadInput = 2;  // exit code, with the reason in the last line
+
 struct SuiteEntry {
   std::string name;
   json summary;       ///< null if nothing was written
@@ -86,6 +88,12 @@ json readSummary(const std::string& path) {
   return file ? json::parse(file) : json(nullptr);
 }
 
+/// Of a run that ended with this exit code.
+std::string faultOf(int code, const std::string& log) {
+  if (code == kBadInput) return lastLine(log);
+  return "ended with code " + std::to_string(code) + ", see " + log;
+}
+
 void runEntry(const std::string& suite, const EvaluationJob& job,
               const std::function<bool()>& interrupted, SuiteEntry& entry) {
   const std::string sequence = suite + "/" + entry.name;
@@ -101,7 +109,7 @@ void runEntry(const std::string& suite, const EvaluationJob& job,
   const std::string program = fs::read_symlink("/proc/self/exe").string();
   const int code = runChild(commandOf(program, sequence, job, out), log, interrupted);
   entry.summary = readSummary(out + "/summary.json");
-  if (code != 0) entry.fault = interrupted() ? "interrupted" : lastLine(log);
+  if (code != 0) entry.fault = interrupted() ? "interrupted" : faultOf(code, log);
 }
 
 /// Header and one row a sequence, in columns: sequence, model, frames, IoU of every tracker, then
