@@ -9,111 +9,168 @@
 namespace chain_tracker {
 namespace {
 
-/// Canvas pixels are painted this much finer and averaged, which is the anti-aliasing.
-constexpr int kSupersampling = 3;
+/// Sprites are kept in this many resolutions, so that they shrink without aliasing.
+constexpr int kLevels = 3;
+/// Shadows are soft: they are computed this much coarser.
+constexpr int kShadowStep = 4;
 
-cv::Scalar randomColor(cv::RNG& rng) {
-  return {rng.uniform(20.0, 235.0), rng.uniform(20.0, 235.0), rng.uniform(20.0, 235.0)};
+uchar overBytes(uchar above, uchar below, int transparency) {
+  return static_cast<uchar>(std::min(255, above + (below * transparency + 127) / 255));
 }
 
-/// Pixels that the sprite may touch under the pose.
-cv::Rect coveredRegion(const Sprite& sprite, const Similarity& image_from_object,
-                       const cv::Size& image_size) {
-  const auto corner = [&](int x, int y) {
-    return image_from_object.apply((cv::Point2d(x, y) - sprite.center) / sprite.pixels);
-  };
-  const cv::Rect2d bounds =
-      uprightBounds({corner(0, 0), corner(sprite.color.cols, 0), corner(0, sprite.color.rows),
-                     corner(sprite.color.cols, sprite.color.rows)});
-  const cv::Rect touched(cv::Point(cvFloor(bounds.x) - 1, cvFloor(bounds.y) - 1),
-                         cv::Point(cvCeil(bounds.br().x) + 2, cvCeil(bounds.br().y) + 2));
-  return touched & cv::Rect(cv::Point(), image_size);
-}
-
-/// Lays a finer picture with coverage over part of a canvas.
-void blend(const cv::Mat& fine_color, const cv::Mat& fine_coverage, cv::Mat canvas) {
-  cv::Mat weight;
-  cv::cvtColor(fine_coverage, weight, cv::COLOR_GRAY2BGR);
-  cv::Mat below;
-  cv::resize(canvas, below, fine_color.size(), 0.0, 0.0, cv::INTER_NEAREST);
-  cv::Mat above;
-  cv::multiply(fine_color, weight, above, 1.0 / 255.0);
-  cv::multiply(below, cv::Scalar::all(255) - weight, below, 1.0 / 255.0);
-  cv::resize(above + below, canvas, canvas.size(), 0.0, 0.0, cv::INTER_AREA);
+cv::Mat4b withCoverage(const cv::Mat3b& color, const cv::Mat1b& coverage) {
+  cv::Mat4b covered(color.size());
+  for (int row = 0; row < color.rows; ++row) {
+    for (int x = 0; x < color.cols; ++x) {
+      covered(row, x) = coveredPixel(color(row, x), coverage(row, x) / 255.0);
+    }
+  }
+  return covered;
 }
 
 }  // namespace
 
-cv::Mat3b paintNoise(const cv::Size& size, const cv::Scalar& mean, double contrast, cv::RNG& rng) {
-  cv::Mat3f sum(size, cv::Vec3f(static_cast<float>(mean[0]), static_cast<float>(mean[1]),
-                                static_cast<float>(mean[2])));
-  for (int octave = 0; octave < 4; ++octave) {
-    const int cells = 4 << octave;
-    cv::Mat3f coarse(std::max(2, cells * size.height / std::max(size.width, 1)), cells);
-    rng.fill(coarse, cv::RNG::NORMAL, 0.0, contrast / (octave + 1.0));
-    cv::Mat3f fine;
-    cv::resize(coarse, fine, size, 0.0, 0.0, cv::INTER_CUBIC);
-    sum += fine;
+void Layer::paint(const cv::Mat4b& piece, const cv::Point& top_left) {
+  const cv::Rect area = cv::Rect(top_left, piece.size()) & bounds();
+  if (area.empty()) return;
+  touched_ = touched_.empty() ? area : touched_ | area;
+  for (int row = area.y; row < area.br().y; ++row) {
+    const cv::Vec4b* above = piece[row - top_left.y] + (area.x - top_left.x);
+    cv::Vec4b* below = pixels_[row] + area.x;
+    for (int x = 0; x < area.width; ++x) {
+      const int transparency = 255 - above[x][3];
+      if (transparency == 255) continue;
+      if (transparency == 0) {
+        below[x] = above[x];
+        continue;
+      }
+      for (int c = 0; c < 4; ++c) below[x][c] = overBytes(above[x][c], below[x][c], transparency);
+    }
   }
-  cv::Mat3b image;
-  sum.convertTo(image, CV_8UC3);
-  return image;
 }
 
-cv::Mat3b paintBackground(const cv::Size& size, cv::RNG& rng) {
-  cv::Mat3b wall = paintNoise(size, {150.0, 160.0, 165.0}, 14.0, rng);
-  for (int i = 0; i < 14; ++i) {
-    const cv::RotatedRect blob(
-        cv::Point2f(rng.uniform(0.0F, 1.0F) * static_cast<float>(size.width),
-                    rng.uniform(0.0F, 1.0F) * static_cast<float>(size.height)),
-        cv::Size2f(rng.uniform(20.0F, 130.0F), rng.uniform(20.0F, 90.0F)),
-        rng.uniform(0.0F, 180.0F));
-    cv::Mat3b painted = wall.clone();
-    cv::ellipse(painted, blob, randomColor(rng), cv::FILLED, cv::LINE_AA);
-    cv::addWeighted(painted, 0.7, wall, 0.3, 0.0, wall);
+void Layer::composite(cv::Mat3b& canvas) const {
+  for (int row = touched_.y; row < touched_.br().y; ++row) {
+    const cv::Vec4b* above = pixels_[row];
+    cv::Vec3b* below = canvas[row];
+    for (int x = touched_.x; x < touched_.br().x; ++x) {
+      const int transparency = 255 - above[x][3];
+      if (transparency == 255) continue;
+      for (int c = 0; c < 3; ++c) below[x][c] = overBytes(above[x][c], below[x][c], transparency);
+    }
   }
-  return wall;
 }
 
-void paintSprite(const Sprite& sprite, const Similarity& image_from_object, cv::Mat3b& canvas) {
-  const cv::Rect region = coveredRegion(sprite, image_from_object, canvas.size());
+void Layer::castShadow(double strength, cv::Mat3b& canvas) const {
+  if (strength <= 0.0 || touched_.empty()) return;
+  const int reach = std::max(4, pixels_.rows / 60);
+  const cv::Rect area = cv::Rect(touched_.tl() - cv::Point(2 * reach, 2 * reach),
+                                 touched_.size() + cv::Size(5 * reach, 5 * reach)) &
+                        bounds();
+  cv::Mat1b coverage;
+  cv::extractChannel(pixels_(area), coverage, 3);
+  cv::Mat1b coarse;
+  cv::resize(coverage, coarse, {1 + area.width / kShadowStep, 1 + area.height / kShadowStep}, 0.0,
+             0.0, cv::INTER_AREA);
+  const double shift = 0.7 * reach / kShadowStep;
+  const cv::Matx23d moved(1.0, 0.0, shift, 0.0, 1.0, 1.3 * shift);
+  cv::warpAffine(coarse, coarse, moved, coarse.size(), cv::INTER_LINEAR);
+  cv::GaussianBlur(coarse, coarse, {0, 0}, 0.6 * reach / kShadowStep, 0.0, cv::BORDER_REPLICATE);
+  cv::resize(coarse, coverage, area.size(), 0.0, 0.0, cv::INTER_LINEAR);
+  const int weight = cvRound(257.0 * strength);  // of 65536, with a coverage of 255
+  for (int row = 0; row < area.height; ++row) {
+    cv::Vec3b* pixel = canvas[area.y + row] + area.x;
+    for (int x = 0; x < area.width; ++x) {
+      const int light = 65536 - weight * coverage(row, x);
+      for (int c = 0; c < 3; ++c) pixel[x][c] = static_cast<uchar>((pixel[x][c] * light) >> 16);
+    }
+  }
+}
+
+int Layer::coverageAt(const cv::Point2d& point) const {
+  const cv::Point pixel(cvRound(point.x), cvRound(point.y));
+  return bounds().contains(pixel) ? pixels_(pixel)[3] : 0;
+}
+
+cv::Vec4b coveredPixel(const cv::Vec3d& color, double coverage) {
+  return {cv::saturate_cast<uchar>(coverage * std::min(color[0], 255.0)),
+          cv::saturate_cast<uchar>(coverage * std::min(color[1], 255.0)),
+          cv::saturate_cast<uchar>(coverage * std::min(color[2], 255.0)),
+          cv::saturate_cast<uchar>(coverage * 255.0)};
+}
+
+cv::Rect pixelsWithin(const cv::Rect2d& bounds, double margin, const Layer& layer) {
+  // Cut first: far outside, the numbers need not fit an int.
+  const cv::Rect2d cut = cv::Rect2d(bounds.x - margin, bounds.y - margin,
+                                    bounds.width + 2.0 * margin, bounds.height + 2.0 * margin) &
+                         cv::Rect2d(layer.bounds());
+  if (cut.empty()) return {};
+  const cv::Point low(cvFloor(cut.x), cvFloor(cut.y));
+  const cv::Point high(cvCeil(cut.br().x) + 1, cvCeil(cut.br().y) + 1);
+  return cv::Rect(low, high) & layer.bounds();
+}
+
+ObjectGrid::ObjectGrid(const Similarity& image_from_object, const cv::Point& first_pixel)
+    : origin_(image_from_object.applyInverse(first_pixel)),
+      right_(image_from_object.applyInverse(first_pixel + cv::Point(1, 0)) - origin_),
+      down_(image_from_object.applyInverse(first_pixel + cv::Point(0, 1)) - origin_) {}
+
+Sprite::Sprite(const cv::Mat3b& color, const cv::Mat1b& coverage, const cv::Point2d& center,
+               double pixels)
+    : Sprite(withCoverage(color, coverage), center, pixels) {}
+
+Sprite::Sprite(const cv::Mat4b& covered, const cv::Point2d& center, double pixels)
+    : center_(center), pixels_(pixels) {
+  // Halving must not change the scale: the sides become multiples of the coarsest level's pixel.
+  constexpr int kMultiple = 1 << (kLevels - 1);
+  const auto missing = [](int side) { return (kMultiple - side % kMultiple) % kMultiple; };
+  cv::Mat4b level;
+  cv::copyMakeBorder(covered, level, 0, missing(covered.rows), 0, missing(covered.cols),
+                     cv::BORDER_CONSTANT, cv::Scalar::all(0.0));
+  for (int i = 0; i < kLevels; ++i) {
+    levels_.push_back(level.clone());
+    cv::resize(level, level, level.size() / 2, 0.0, 0.0, cv::INTER_AREA);
+  }
+}
+
+void Sprite::paint(const Similarity& image_from_object, Layer& layer) const {
+  const cv::Mat4b& finest = levels_.front();
+  const auto corner = [&](int x, int y) {
+    return image_from_object.apply((cv::Point2d(x, y) - center_) / pixels_);
+  };
+  const cv::Rect region =
+      pixelsWithin(uprightBounds({corner(0, 0), corner(finest.cols, 0), corner(0, finest.rows),
+                                  corner(finest.cols, finest.rows)}),
+                   1.0, layer);
   if (region.empty()) return;
-  const cv::Size fine_size = region.size() * kSupersampling;
-  const double scale = image_from_object.scale / sprite.pixels * kSupersampling;
+  const double fineness = pixels_ / image_from_object.scale;
+  const int index = std::clamp(cvRound(std::log2(fineness)), 0, kLevels - 1);
+  // Pixel centres of a halved picture: x = x_fine / 2 - 1 / 4, and so on.
+  const double shrink = 1 << index;
+  const cv::Point2d center = (center_ + cv::Point2d(0.5, 0.5)) / shrink - cv::Point2d(0.5, 0.5);
+  const double scale = image_from_object.scale * shrink / pixels_;
   const double c = scale * std::cos(image_from_object.angle);
   const double s = scale * std::sin(image_from_object.angle);
-  // Pixel centres of the fine canvas: x_fine = k x + (k - 1) / 2.
-  const double half = 0.5 * (kSupersampling - 1);
-  const cv::Point2d origin =
-      (image_from_object.translation - cv::Point2d(region.tl())) * kSupersampling +
-      cv::Point2d(half, half);
-  const cv::Matx23d fine_from_sprite(c, -s, origin.x - c * sprite.center.x + s * sprite.center.y, s,
-                                     c, origin.y - s * sprite.center.x - c * sprite.center.y);
-  cv::Mat color;
-  cv::Mat coverage;
-  cv::warpAffine(sprite.color, color, fine_from_sprite, fine_size, cv::INTER_LINEAR,
-                 cv::BORDER_REPLICATE);
-  cv::warpAffine(sprite.coverage, coverage, fine_from_sprite, fine_size, cv::INTER_LINEAR);
-  blend(color, coverage, canvas(region));
+  const cv::Point2d origin = image_from_object.translation - cv::Point2d(region.tl());
+  const cv::Matx23d region_from_level(c, -s, origin.x - c * center.x + s * center.y, s, c,
+                                      origin.y - s * center.x - c * center.y);
+  cv::Mat4b piece;
+  cv::warpAffine(levels_[static_cast<size_t>(index)], piece, region_from_level, region.size(),
+                 cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar::all(0.0));
+  layer.paint(piece, region.tl());
 }
 
-void addNoise(cv::Mat3b& image, double sigma, cv::RNG& rng) {
-  if (sigma <= 0.0) return;
-  cv::Mat noise(image.size(), CV_16SC3);
-  rng.fill(noise, cv::RNG::NORMAL, 0.0, sigma);
-  cv::Mat sum;
-  cv::add(image, noise, sum, cv::noArray(), CV_16SC3);
-  sum.convertTo(image, CV_8UC3);
-}
-
-SmoothMotion::SmoothMotion(double cycles, cv::RNG& rng) : cycles_(cycles) {
-  for (double& phase : phases_) phase = rng.uniform(0.0, 2.0 * CV_PI);
-}
-
-double SmoothMotion::at(double time) const {
-  const double t = 2.0 * CV_PI * cycles_ * time;
-  return 0.6 * std::sin(t + phases_[0]) + 0.3 * std::sin(1.7 * t + phases_[1]) +
-         0.1 * std::sin(2.9 * t + phases_[2]);
+Sprite Sprite::piece(double size, cv::RNG& rng) const {
+  const cv::Mat4b& finest = levels_.front();
+  const cv::Size cut(std::max(1, cvRound(size * finest.cols)),
+                     std::max(1, cvRound(size * finest.rows)));
+  const cv::Size room = finest.size() - cut;
+  const cv::Point corner(cvRound(room.width * rng.uniform(0.3, 0.7)),
+                         cvRound(room.height * rng.uniform(0.3, 0.7)));
+  cv::Mat4b covered;
+  cv::copyMakeBorder(finest(cv::Rect(corner, cut)), covered, 4, 4, 4, 4, cv::BORDER_CONSTANT,
+                     cv::Scalar::all(0.0));
+  return {covered, cv::Point2d(0.5 * cut.width + 4.0, 0.5 * cut.height + 4.0), pixels_};
 }
 
 }  // namespace chain_tracker

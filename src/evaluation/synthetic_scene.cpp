@@ -1,35 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/evaluation/synthetic_scene.h"
 
-#include <sstream>
 #include <stdexcept>
 
-#include "bottle_scene.h"
+#include "composed_scene.h"
+#include "scene_backgrounds.h"
 
 namespace chain_tracker {
 namespace {
 
-template <typename Value>
-void require(bool good, const std::string& option, const Value& value, const std::string& allowed) {
-  if (good) return;
-  std::ostringstream message;
-  message << "scene option " << option << " is " << value << ", must be " << allowed;
-  throw std::invalid_argument(message.str());
+const std::vector<SceneRecipe>& recipes() {
+  static const std::vector<SceneRecipe> all{
+      {"bottle", "bottle", paintWall, makeBottle},
+      {"box", "box", paintDesk, makeBox},
+      {"robot_arm", "auto", paintWorkshop, makeRobotArm},
+      {"finger_pair", "auto", paintBookcase, makeFingerPair},
+      {"cable", "cable", paintDesk, makeCable},
+      {"suture", "cable", paintTissue, makeSuture},
+      {"guitar_string", "cable", paintDimRoom, makeGuitarString},
+      {"lips", "auto", paintDimRoom, makeLips},
+      {"plastic_bag", "box", paintStreet, makePlasticBag},
+  };
+  return all;
+}
+
+std::string joined(const std::vector<std::string>& texts, const std::string& separator) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : separator) + text;
+  return all;
 }
 
 }  // namespace
 
-std::vector<std::string> sceneNames() { return {"bottle"}; }
+std::vector<std::string> sceneNames() {
+  std::vector<std::string> names;
+  for (const SceneRecipe& recipe : recipes()) names.push_back(recipe.name);
+  return names;
+}
 
 std::unique_ptr<SyntheticScene> makeScene(const std::string& name, const SceneOptions& options) {
-  require(options.frames >= 1, "frames", options.frames, "at least 1");
-  require(options.size.width >= 64 && options.size.height >= 64, "size", options.size,
-          "at least 64 x 64");
-  require(options.noise >= 0.0, "noise", options.noise, "at least 0");
-  if (name == "bottle") return std::make_unique<BottleScene>(options);
-  std::string names;
-  for (const std::string& known : sceneNames()) names += (names.empty() ? "" : ", ") + known;
-  throw std::invalid_argument("scene is '" + name + "', must be one of: " + names);
+  const std::vector<std::string> faults = sceneOptionFaults(options);
+  if (!faults.empty()) throw std::invalid_argument(joined(faults, "; "));
+  for (const SceneRecipe& recipe : recipes()) {
+    if (recipe.name == name) return std::make_unique<ComposedScene>(recipe, options);
+  }
+  throw std::invalid_argument("scene is '" + name +
+                              "', must be one of: " + joined(sceneNames(), ", "));
 }
 
 }  // namespace chain_tracker

@@ -17,7 +17,8 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
-#include "result_files.h"
+#include "common/recorded_objects.h"
+#include "common/result_files.h"
 
 namespace fs = std::filesystem;
 
@@ -42,21 +43,6 @@ struct Options {
   double idle_timeout_sec = 3.0;
   double first_timeout_sec = 30.0;
 };
-
-std::string stateName(uint8_t state) {
-  switch (state) {
-    case TrackedObject::INITIALIZING:
-      return "INITIALIZING";
-    case TrackedObject::TRACKING:
-      return "TRACKING";
-    case TrackedObject::OCCLUDED:
-      return "OCCLUDED";
-    case TrackedObject::LOST:
-      return "LOST";
-    default:
-      return "UNKNOWN";
-  }
-}
 
 /// A text file that is written line by line; any failure throws with the file's name.
 class LineFile {
@@ -133,7 +119,7 @@ class OverlayVideo {
   std::vector<double> stamps_sec_;
 };
 
-ObjectRow toRow(int frame, double time_ms, const TrackedObject& object) {
+ObjectRow toRow(int frame, double time_ms, const TrackedObject& object, const cv::Rect2d& box) {
   ObjectRow row;
   row.frame = frame;
   row.time_ms = time_ms;
@@ -142,16 +128,11 @@ ObjectRow toRow(int frame, double time_ms, const TrackedObject& object) {
   row.theta = object.pose.theta;
   row.scale = object.scale;
   row.x = row.y = row.w = row.h = std::numeric_limits<double>::quiet_NaN();
-  const auto& corners = object.outline.points;
-  if (corners.empty()) return row;
-  const auto by_x = [](const auto& a, const auto& b) { return a.x < b.x; };
-  const auto by_y = [](const auto& a, const auto& b) { return a.y < b.y; };
-  const auto [left, right] = std::minmax_element(corners.begin(), corners.end(), by_x);
-  const auto [top, bottom] = std::minmax_element(corners.begin(), corners.end(), by_y);
-  row.x = left->x;
-  row.y = top->y;
-  row.w = right->x - left->x;
-  row.h = bottom->y - top->y;
+  if (box.empty()) return row;
+  row.x = box.x;
+  row.y = box.y;
+  row.w = box.width;
+  row.h = box.height;
   return row;
 }
 
@@ -199,7 +180,8 @@ class Recorder {
     if (object == message.objects.end()) return;
     options_.id = object->id;
     model_ = object->model;
-    const ObjectRow row = toRow(frame, message.processing_time.toSec() * 1e3, *object);
+    const ObjectRow row =
+        toRow(frame, message.processing_time.toSec() * 1e3, *object, box_.next(*object));
     summary_.add(row);
     objects_.write(toCsv(row));
     recordParts(frame, *object);
@@ -254,6 +236,7 @@ class Recorder {
   LineFile points_;
   OverlayVideo video_;
   RunSummary summary_;
+  RecordedBox box_;
   std::string model_;
   int frame_count_ = 0;
   ros::WallTime last_message_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/result_files.h"
+#include "tools/common/result_files.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,13 +45,6 @@ TEST(ResultFiles, missingValuesAreNan) {
   PointRow row;
   row.x = row.y = kNan;
   EXPECT_EQ("0,0,nan,nan,0.0000,0", toCsv(row));
-}
-
-TEST(ResultFiles, percentileIsOneOfTheValues) {
-  EXPECT_EQ(3.0, percentile({5.0, 1.0, 3.0}, 0.5));
-  EXPECT_EQ(5.0, percentile({5.0, 1.0, 3.0}, 0.99));
-  EXPECT_EQ(4.0, percentile({4.0}, 0.99));
-  EXPECT_TRUE(std::isnan(percentile({}, 0.5)));
 }
 
 TEST(RunSummary, countsLostFramesAndAveragesTheOthers) {

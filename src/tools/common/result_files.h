@@ -3,10 +3,7 @@
 /// No files are opened here and ROS is not known.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstddef>
 #include <cstdio>
 #include <limits>
 #include <map>
@@ -14,6 +11,8 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "chain_tracker/evaluation/metrics.h"
 
 namespace chain_tracker {
 
@@ -76,14 +75,6 @@ inline std::string toCsv(const PartRow& row) {
 inline std::string toCsv(const PointRow& row) {
   return detail::format("%d,%d,%.2f,%.2f,%.4f,%d", row.frame, row.point, row.x, row.y,
                         row.confidence, row.visible ? 1 : 0);
-}
-
-/// The value nearest to `share` of the way through the sorted values; NaN if there are none.
-inline double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const auto rank = std::lround(share * static_cast<double>(values.size() - 1));
-  return values[static_cast<std::size_t>(rank)];
 }
 
 /// Collects the rows of one object and sums them up.

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <utility>
+
+#include "chain_tracker/chain/chain_tracker.h"
+#include "chain_tracker/evaluation/evaluated_tracker.h"
+
+namespace chain_tracker {
+namespace {
+
+class EvaluatedChainTracker : public EvaluatedTracker {
+ public:
+  EvaluatedChainTracker(ChainModel model, std::vector<cv::Point2d> points)
+      : model_(std::move(model)), points_(std::move(points)) {}
+
+  std::string name() const override { return "chain_tracker"; }
+
+  TrackedFrame start(const cv::Mat& image) override {
+    tracker_ = std::make_unique<ChainTracker>(model_, image, points_);
+    return report(tracker_->state());
+  }
+
+  TrackedFrame update(const cv::Mat& image) override { return report(tracker_->update(image)); }
+
+ private:
+  static TrackedFrame report(const ChainState& state) {
+    const Similarity& pose = state.segments.front().image_from_segment;
+    return {toString(state.status),
+            state.confidence,
+            state.status == TrackingStatus::kLost,
+            state.box,
+            pose.angle,
+            pose.scale,
+            state.parts,
+            state.points};
+  }
+
+  ChainModel model_;
+  std::vector<cv::Point2d> points_;
+  std::unique_ptr<ChainTracker> tracker_;
+};
+
+}  // namespace
+
+std::unique_ptr<EvaluatedTracker> makeChainTracker(const ChainModel& model,
+                                                   const std::vector<cv::Point2d>& points) {
+  return std::make_unique<EvaluatedChainTracker>(model, points);
+}
+
+}  // namespace chain_tracker

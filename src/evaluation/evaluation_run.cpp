@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/evaluation/evaluation_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <limits>
+#include <stdexcept>
+
+#include "chain_tracker/image/pixel_geometry.h"
+
+namespace chain_tracker {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kGrowth = 0.1;
+
+/// Wall time of a call [ms].
+template <typename Call>
+double timed(const Call& call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  const std::chrono::duration<double, std::milli> elapsed =
+      std::chrono::steady_clock::now() - start;
+  return elapsed.count();
+}
+
+std::vector<cv::Point2d> visiblePoints(const std::map<int, TruePoint>& points) {
+  std::vector<cv::Point2d> visible;
+  for (const auto& entry : points) {
+    if (entry.second.visible) visible.push_back(entry.second.position);
+  }
+  return visible;
+}
+
+void scoreBox(const cv::Rect2d& box, const cv::Rect2d& truth, bool lost, FrameScore& score) {
+  score.has_object = true;
+  score.overlap = lost ? 0.0 : intersectionOverUnion(box, truth);
+  score.center_error = lost ? kInfinity : centerDistance(box, truth);
+}
+
+void scorePoints(const TrackedFrame& tracked, const std::map<int, TruePoint>& truth,
+                 FrameScore& score) {
+  for (const auto& [index, point] : truth) {
+    const auto k = static_cast<std::size_t>(index);
+    if (!point.visible || k >= tracked.points.size()) continue;
+    score.point_errors.push_back(
+        tracked.lost ? kInfinity : cv::norm(tracked.points[k].position - point.position));
+  }
+}
+
+cv::Rect2d pointBox(const TrackedFrame& tracked) {
+  if (tracked.points.empty()) return tracked.box;
+  std::vector<cv::Point2d> points;
+  for (const CarriedPoint& point : tracked.points) points.push_back(point.position);
+  return boxAround(points);
+}
+
+std::string nameOf(const SourceFrame& frame) { return "frame " + std::to_string(frame.index); }
+
+void skip(const std::string& fault, EvaluationResult& result) {
+  ++result.skipped_frames;
+  result.faults.push_back("skipped a frame: " + fault);
+}
+
+/// Hands the frames asked for, as far as they can be read, to `step` in order.
+template <typename Step>
+void forEachFrame(FrameSource& frames, const EvaluationOptions& options, EvaluationResult& result,
+                  const Step& step) {
+  SourceFrame frame;
+  int read = 0;
+  int seen = 0;
+  while (options.max_frames == 0 || seen < options.max_frames) {
+    result.interrupted = options.interrupted && options.interrupted();
+    if (result.interrupted || !frames.next(frame)) break;
+    ++read;
+    if (frame.index < options.first_frame) continue;
+    if (seen == 0 && !frame.fault.empty()) {
+      throw std::invalid_argument(nameOf(frame) + ", in which the object is given: " + frame.fault);
+    }
+    ++seen;
+    if (frame.fault.empty()) {
+      step(frame);
+    } else {
+      skip(frame.fault, result);
+    }
+    if (options.progress) options.progress(seen);
+  }
+  if (seen > 0 || result.interrupted) return;
+  throw std::invalid_argument("the object is given in frame " +
+                              std::to_string(options.first_frame) + ", counted from 0, of only " +
+                              std::to_string(read));
+}
+
+TrackedFrame nothingKnown() {
+  TrackedFrame frame;
+  frame.state = "LOST";
+  frame.lost = true;
+  return frame;
+}
+
+/// Lets the tracker see the frame; of the chain tracker, a start must succeed. One that has failed
+/// is not asked again: OpenCV's may crash then.
+void process(EvaluatedTracker& tracker, const SourceFrame& frame, bool must_succeed,
+             const GroundTruth& truth, TrackerRun& run) {
+  EvaluatedFrame evaluated;
+  evaluated.index = frame.index;
+  const bool first = run.frames.empty();
+  evaluated.tracked = nothingKnown();
+  evaluated.time_ms = timed([&] {
+    if (!run.fault.empty()) return;
+    try {
+      evaluated.tracked = first ? tracker.start(frame.image) : tracker.update(frame.image);
+    } catch (const std::exception& error) {
+      if (must_succeed) throw;
+      run.fault = run.name + " failed on " + nameOf(frame) + ": " + error.what();
+    }
+  });
+  evaluated.score = scoreFrame(evaluated.tracked, truth, frame.index);
+  run.frames.push_back(evaluated);
+}
+
+Scores scoresOf(const TrackerRun& run, double object_length) {
+  std::vector<FrameScore> scores;
+  std::vector<double> times;
+  for (const EvaluatedFrame& frame : run.frames) {
+    scores.push_back(frame.score);
+    if (frame.index != run.frames.front().index) times.push_back(frame.time_ms);
+  }
+  return summarize(scores, object_length, times);
+}
+
+/// Scores the runs and tells of their faults.
+void finish(double object_length, EvaluationResult& result) {
+  for (TrackerRun& run : result.runs) {
+    run.scores = scoresOf(run, object_length);
+    if (!run.fault.empty()) result.faults.push_back(run.fault);
+  }
+}
+
+}  // namespace
+
+cv::Rect2d boxAround(const std::vector<cv::Point2d>& points) {
+  const cv::Rect2d tight = uprightBounds(points);
+  const double width = std::max(1.0, tight.width * (1.0 + kGrowth));
+  const double height = std::max(1.0, tight.height * (1.0 + kGrowth));
+  return {tight.x - 0.5 * (width - tight.width), tight.y - 0.5 * (height - tight.height), width,
+          height};
+}
+
+FrameScore scoreFrame(const TrackedFrame& tracked, const GroundTruth& truth, int frame) {
+  FrameScore score;
+  score.lost = tracked.lost;
+  const auto points = truth.points.find(frame);
+  if (points != truth.points.end()) scorePoints(tracked, points->second, score);
+  const auto box = truth.boxes.find(frame);
+  if (box != truth.boxes.end()) {
+    if (box->second) scoreBox(tracked.box, *box->second, tracked.lost, score);
+    score.has_absence = !box->second;
+  } else if (points != truth.points.end()) {
+    const std::vector<cv::Point2d> visible = visiblePoints(points->second);
+    if (visible.size() >= 2) {
+      scoreBox(pointBox(tracked), boxAround(visible), tracked.lost, score);
+    }
+  }
+  return score;
+}
+
+double objectLength(const std::vector<cv::Point2d>& start, bool rectangle) {
+  if (rectangle && start.size() == 4) return cv::norm(start[2] - start[0]);
+  double length = 0.0;
+  for (std::size_t i = 1; i < start.size(); ++i) length += cv::norm(start[i] - start[i - 1]);
+  return length;
+}
+
+EvaluationResult evaluate(FrameSource& frames,
+                          const std::vector<std::unique_ptr<EvaluatedTracker>>& trackers,
+                          const GroundTruth& truth, const std::vector<cv::Point2d>& start,
+                          const EvaluationOptions& options) {
+  EvaluationResult result;
+  for (const auto& tracker : trackers) result.runs.push_back({tracker->name(), {}, {}, ""});
+  cv::Size size;
+  forEachFrame(frames, options, result, [&](const SourceFrame& frame) {
+    if (size.empty()) size = frame.image.size();
+    if (frame.image.size() != size) {
+      skip(nameOf(frame) + " has another size than the first one", result);
+      return;
+    }
+    for (std::size_t i = 0; i < trackers.size(); ++i) {
+      TrackerRun& run = result.runs[i];
+      process(*trackers[i], frame, i == 0 && run.frames.empty(), truth, run);
+    }
+    if (options.observer) options.observer(frame, result.runs.front().frames.back().tracked);
+  });
+  finish(objectLength(start, truth.points.empty()), result);
+  return result;
+}
+
+EvaluationResult scoreRecording(FrameSource& frames, const std::map<int, RecordedFrame>& recording,
+                                const GroundTruth& truth, const std::vector<cv::Point2d>& start,
+                                const EvaluationOptions& options) {
+  EvaluationResult result;
+  result.runs.push_back({"chain_tracker", {}, {}, ""});
+  forEachFrame(frames, options, result, [&](const SourceFrame& frame) {
+    const auto recorded = recording.find(frame.index);
+    if (recorded == recording.end()) {
+      ++result.dropped_frames;
+      return;
+    }
+    const auto& [time_ms, tracked] = recorded->second;
+    result.runs.front().frames.push_back(
+        {frame.index, time_ms, tracked, scoreFrame(tracked, truth, frame.index)});
+    if (options.observer) options.observer(frame, tracked);
+  });
+  finish(objectLength(start, truth.points.empty()), result);
+  return result;
+}
+
+}  // namespace chain_tracker

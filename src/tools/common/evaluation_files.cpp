@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation_files.h"
+
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+
+#include "result_files.h"
+
+namespace chain_tracker {
+namespace {
+
+using nlohmann::json;
+
+json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+std::ofstream openForWriting(const std::string& folder, const std::string& name) {
+  std::ofstream file(folder + "/" + name);
+  if (!file) throw std::runtime_error(folder + "/" + name + " cannot be written");
+  return file;
+}
+
+ObjectRow objectRow(const EvaluatedFrame& frame) {
+  const TrackedFrame& tracked = frame.tracked;
+  return {frame.index,   frame.time_ms,     tracked.state,      tracked.confidence, tracked.box.x,
+          tracked.box.y, tracked.box.width, tracked.box.height, tracked.theta,      tracked.scale};
+}
+
+void writeObjects(const TrackerRun& run, const std::string& folder) {
+  std::ofstream objects = openForWriting(folder, "objects.csv");
+  std::ofstream parts = openForWriting(folder, "parts.csv");
+  std::ofstream points = openForWriting(folder, "points.csv");
+  objects << kObjectHeader << "\n";
+  parts << kPartHeader << "\n";
+  points << kPointHeader << "\n";
+  for (const EvaluatedFrame& frame : run.frames) {
+    objects << toCsv(objectRow(frame)) << "\n";
+    int index = 0;
+    for (const PartState& part : frame.tracked.parts) {
+      parts << toCsv(PartRow{frame.index, index++, part.position.x, part.position.y,
+                             part.orientation, part.side, part.confidence, part.visible})
+            << "\n";
+    }
+    index = 0;
+    for (const CarriedPoint& point : frame.tracked.points) {
+      points << toCsv(PointRow{frame.index, index++, point.position.x, point.position.y,
+                               point.confidence, point.visible})
+             << "\n";
+    }
+  }
+}
+
+/// Empty where a frame has no truth or the tracker no answer.
+std::string cell(bool known, double value) {
+  if (!known || !std::isfinite(value)) return "";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(4) << value;
+  return text.str();
+}
+
+void writeScores(const EvaluationResult& result, const std::string& folder) {
+  std::ofstream file = openForWriting(folder, "scores.csv");
+  file << "tracker,frame,lost,iou,center_error_px,part_error_px\n";
+  for (const TrackerRun& run : result.runs) {
+    for (const EvaluatedFrame& frame : run.frames) {
+      const FrameScore& score = frame.score;
+      file << run.name << "," << frame.index << "," << (score.lost ? 1 : 0) << ","
+           << cell(score.has_object, score.overlap) << ","
+           << cell(score.has_object, score.center_error) << ","
+           << cell(!score.point_errors.empty(), mean(score.point_errors)) << "\n";
+    }
+  }
+}
+
+void appendLine(const std::string& name, const json& scores, std::ostringstream& table) {
+  table << std::left << std::setw(15) << name << std::right << std::setw(8)
+        << figure(scores["mean_iou"], 3) << std::setw(8) << figure(scores["success_auc"], 3)
+        << std::setw(8) << figure(scores["pascal_50"], 3) << std::setw(8)
+        << figure(scores["precision_20px"], 3) << std::setw(9)
+        << figure(scores["mean_center_error_px"], 1) << std::setw(9)
+        << figure(scores["part_error_px"]["mean"], 1) << std::setw(8) << figure(scores["pck_10"], 3)
+        << std::setw(7) << scores["lost_frames"].get<int>() << std::setw(8)
+        << figure(scores["fps"], 0) << "\n";
+}
+
+}  // namespace
+
+std::string figure(const json& value, int decimals) {
+  if (value.is_null()) return "-";
+  std::ostringstream stream;
+  stream << std::fixed << std::setprecision(decimals) << value.get<double>();
+  return stream.str();
+}
+
+json toJson(const Scores& scores) {
+  return {{"frames", scores.frames},
+          {"scored_frames", scores.scored_frames},
+          {"mean_iou", number(scores.mean_iou)},
+          {"success_auc", number(scores.success_auc)},
+          {"pascal_50", number(scores.pascal_50)},
+          {"precision_20px", number(scores.precision_20px)},
+          {"mean_center_error_px", number(scores.mean_center_error_px)},
+          {"part_error_px",
+           {{"mean", number(scores.part_error_mean_px)},
+            {"median", number(scores.part_error_median_px)},
+            {"p95", number(scores.part_error_p95_px)}}},
+          {"pck_10", number(scores.pck_10)},
+          {"lost_frames", scores.lost_frames},
+          {"reacquired", scores.reacquired},
+          {"fps", number(scores.fps)},
+          {"latency_ms",
+           {{"p50", number(scores.latency_p50_ms)}, {"p99", number(scores.latency_p99_ms)}}}};
+}
+
+json summaryOf(const EvaluationResult& result, const std::string& sequence,
+               const std::string& model) {
+  json summary = toJson(result.runs.front().scores);
+  summary["sequence"] = sequence;
+  summary["model"] = model;
+  summary["skipped_frames"] = result.skipped_frames;
+  summary["dropped_frames"] = result.dropped_frames;
+  summary["faults"] = result.faults;
+  summary["interrupted"] = result.interrupted;
+  summary["baselines"] = json::object();
+  for (std::size_t i = 1; i < result.runs.size(); ++i) {
+    summary["baselines"][result.runs[i].name] = toJson(result.runs[i].scores);
+  }
+  return summary;
+}
+
+void writeResults(const EvaluationResult& result, const json& summary, const std::string& folder) {
+  writeObjects(result.runs.front(), folder);
+  writeScores(result, folder);
+  openForWriting(folder, "summary.json") << summary.dump(2) << "\n";
+}
+
+std::string tableOf(const json& summary) {
+  std::ostringstream table;
+  table << std::left << std::setw(15) << "tracker" << std::right << std::setw(8) << "IoU"
+        << std::setw(8) << "AUC" << std::setw(8) << "IoU>.5" << std::setw(8) << "20 px"
+        << std::setw(9) << "centre" << std::setw(9) << "points" << std::setw(8) << "PCK10"
+        << std::setw(7) << "lost" << std::setw(8) << "fps"
+        << "\n";
+  appendLine("chain_tracker", summary, table);
+  for (const auto& [name, scores] : summary["baselines"].items()) appendLine(name, scores, table);
+  return table.str();
+}
+
+}  // namespace chain_tracker

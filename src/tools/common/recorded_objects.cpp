@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recorded_objects.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bag_topic.h"
+#include "chain_tracker/TrackedObjectArray.h"
+#include "chain_tracker/image/pixel_geometry.h"
+
+namespace chain_tracker {
+namespace {
+
+constexpr const char* kObjectsType = "chain_tracker/TrackedObjectArray";
+/// Outlines are published in single precision: sides this near an axis are parallel to it [rad].
+constexpr double kUprightTolerance = 1e-4;
+
+std::vector<cv::Point2d> cornersOf(const geometry_msgs::Polygon& polygon) {
+  std::vector<cv::Point2d> corners;
+  for (const auto& point : polygon.points) corners.emplace_back(point.x, point.y);
+  return corners;
+}
+
+bool isUpright(const std::vector<cv::Point2d>& corners) {
+  return std::abs(std::sin(2.0 * directionOf(corners[1] - corners[0]))) < 2.0 * kUprightTolerance;
+}
+
+const geometry_msgs::Pose2D& poseOf(const TrackedObject& object) {
+  return object.segments.empty() ? object.pose : object.segments.front().pose;
+}
+
+PartState partFrom(const PartPose& message) {
+  PartState part;
+  part.position = {message.pose.x, message.pose.y};
+  part.orientation = message.pose.theta;
+  part.side = message.size;
+  part.confidence = message.confidence;
+  part.visible = message.visible != 0;
+  return part;
+}
+
+TrackedFrame frameFrom(const TrackedObject& object, RecordedBox& boxes) {
+  TrackedFrame frame;
+  frame.state = stateName(object.state);
+  frame.confidence = object.confidence;
+  frame.lost = object.state == TrackedObject::LOST;
+  frame.box = boxes.next(object);
+  frame.theta = poseOf(object).theta;
+  frame.scale = object.segments.empty() ? object.scale : object.segments.front().scale;
+  for (const PartPose& part : object.parts) frame.parts.push_back(partFrom(part));
+  for (const TrackedPoint& point : object.points) {
+    frame.points.push_back({{point.x, point.y}, point.confidence, point.visible != 0});
+  }
+  return frame;
+}
+
+/// Null if the bag is damaged there.
+TrackedObjectArray::ConstPtr arrayFrom(const rosbag::MessageInstance& message) {
+  try {
+    return message.instantiate<TrackedObjectArray>();
+  } catch (const std::exception&) {
+    return nullptr;
+  }
+}
+
+/// The object of that id, the first one for an empty id; null if there is none.
+const TrackedObject* findObject(const TrackedObjectArray& array, const std::string& id) {
+  const auto found =
+      std::find_if(array.objects.begin(), array.objects.end(),
+                   [&](const TrackedObject& object) { return id.empty() || object.id == id; });
+  return found == array.objects.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string stateName(std::uint8_t state) {
+  switch (state) {
+    case TrackedObject::INITIALIZING:
+      return "INITIALIZING";
+    case TrackedObject::TRACKING:
+      return "TRACKING";
+    case TrackedObject::OCCLUDED:
+      return "OCCLUDED";
+    case TrackedObject::LOST:
+      return "LOST";
+    default:
+      return "UNKNOWN";
+  }
+}
+
+cv::Rect2d RecordedBox::next(const TrackedObject& object) {
+  std::vector<cv::Point2d> corners = cornersOf(object.outline);
+  if (corners.size() != 4) return corners.empty() ? cv::Rect2d() : uprightBounds(corners);
+  const geometry_msgs::Pose2D& pose = poseOf(object);
+  const bool initialised = object.state == TrackedObject::INITIALIZING;
+  if (!begun_ || initialised) {
+    upright_ = isUpright(corners);
+    first_angle_ = pose.theta;
+    begun_ = true;
+  }
+  if (!upright_) return uprightBounds(corners);
+  const Similarity turn_back{wrapAngle(first_angle_ - pose.theta), 1.0, {pose.x, pose.y}};
+  for (cv::Point2d& corner : corners) {
+    corner = turn_back.apply(corner - cv::Point2d(pose.x, pose.y));
+  }
+  return uprightBounds(corners);
+}
+
+ObjectRecording readRecording(const std::string& bag, const std::string& topic,
+                              const std::map<ros::Time, int>& index_of) {
+  ObjectRecording recording;
+  RecordedBox boxes;
+  BagTopic messages(bag, topic, {kObjectsType});
+  for (const rosbag::MessageInstance& message : messages.view()) {
+    const auto array = arrayFrom(message);
+    if (array == nullptr) {
+      ++recording.damaged;
+      continue;
+    }
+    const auto frame = index_of.find(array->header.stamp);
+    if (frame == index_of.end()) {
+      ++recording.without_image;
+      continue;
+    }
+    const TrackedObject* object = findObject(*array, recording.id);
+    if (object == nullptr) {
+      recording.frames_without_object.push_back(frame->second);
+      continue;
+    }
+    recording.id = object->id;
+    recording.model = object->model;
+    recording.frames[frame->second] = {array->processing_time.toSec() * 1e3,
+                                       frameFrom(*object, boxes)};
+  }
+  return recording;
+}
+
+GroundTruth truthFrom(const ObjectRecording& recording) {
+  GroundTruth truth;
+  for (const int frame : recording.frames_without_object) truth.boxes[frame] = std::nullopt;
+  for (const auto& [frame, recorded] : recording.frames) {
+    const TrackedFrame& tracked = recorded.tracked;
+    if (tracked.lost) continue;
+    if (!tracked.box.empty()) truth.boxes[frame] = tracked.box;
+    int index = 0;
+    for (const CarriedPoint& point : tracked.points) {
+      truth.points[frame][index++] = {point.position, point.visible};
+    }
+  }
+  return truth;
+}
+
+}  // namespace chain_tracker

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a tracker published about an object, back as what it knew.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include <ros/time.h>
+
+#include "chain_tracker/TrackedObject.h"
+#include "chain_tracker/evaluation/evaluation_run.h"
+#include "chain_tracker/evaluation/ground_truth.h"
+
+namespace chain_tracker {
+
+/// Name of a state of TrackedObject, as in objects.csv.
+std::string stateName(std::uint8_t state);
+
+/// Takes messages about one object in the order of time, and says where its box is.
+class RecordedBox {
+ public:
+  /// As CarriedShape::box() would have it: an outline that was upright when the object was
+  /// initialised moves and rescales but does not turn, of another one, or
+  /// one of not just four corners, these are the upright bounds. Empty for a lost object.
+  cv::Rect2d next(const TrackedObject& object);
+
+ private:
+  bool begun_ = false;
+  bool upright_ = false;
+  double first_angle_ = 0.0;
+};
+
+/// The messages about one object of a topic.
+struct ObjectRecording {
+  std::string id;                       ///< of the first object that was told of
+  std::string model;                    ///< its model's name
+  std::map<int, RecordedFrame> frames;  ///< by the index of the image of the same stamp
+  int without_image = 0;                ///< messages whose stamp no image has
+  int damaged = 0;                      ///< messages that cannot be read
+  /// Frames whose message does not tell of the object: it was not known yet, or is not there.
+  std::vector<int> frames_without_object;
+};
+
+/// Reads a chain_tracker/TrackedObjectArray topic. `index_of`: the images' (indexByStamp()).
+/// Throws std::invalid_argument as BagTopic does.
+ObjectRecording readRecording(const std::string& bag, const std::string& topic,
+                              const std::map<ros::Time, int>& index_of);
+
+/// A recording taken for the truth: points and boxes of the frames in which it was not lost; no
+/// object where the messages do not tell of it.
+GroundTruth truthFrom(const ObjectRecording& recording);
+
+}  // namespace chain_tracker

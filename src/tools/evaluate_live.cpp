@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Records what a running tracker publishes on `objects` while a bag is played, then scores it as
+/// `evaluate --recording` does. Ends by itself, with the bag's last image or with the messages.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <rosbag/bag.h>
+
+#include "chain_tracker/TrackedObjectArray.h"
+#include "common/bag_frames.h"
+#include "common/evaluation_job.h"
+
+namespace fs = std::filesystem;
+
+namespace chain_tracker {
+namespace {
+
+constexpr int kGood = 0;
+constexpr int kBelowThreshold = 1;
+constexpr int kBadInput = 2;
+
+/// Long enough for a message of every frame of a long bag: none may be lost here.
+constexpr int kQueueSize = 100000;
+constexpr double kPollSec = 0.02;
+
+struct Options {
+  EvaluationJob job;
+  double idle_timeout_sec = 5.0;
+  double first_timeout_sec = 60.0;
+  double min_iou = std::nan("");
+};
+
+double positiveParam(const ros::NodeHandle& node, const std::string& key, double fallback) {
+  const double value = node.param(key, fallback);
+  if (value > 0.0) return value;
+  throw std::invalid_argument("~" + key + " is " + std::to_string(value) + " [s], must be > 0");
+}
+
+std::vector<cv::Point2d> pointsFrom(const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream stream(text);
+  for (std::string word; std::getline(stream, word, ',');) numbers.push_back(std::stod(word));
+  std::vector<cv::Point2d> points;
+  for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) {
+    points.emplace_back(numbers[i], numbers[i + 1]);
+  }
+  return points;
+}
+
+std::string requiredParam(const ros::NodeHandle& node, const std::string& key) {
+  std::string value = node.param<std::string>(key, "");
+  if (!value.empty()) return value;
+  throw std::invalid_argument("~" + key + " is missing");
+}
+
+Options readOptions(const ros::NodeHandle& node) {
+  Options options;
+  options.job.bag = requiredParam(node, "bag");
+  options.job.topic = requiredParam(node, "topic");
+  options.job.out = requiredParam(node, "out");
+  options.job.recording = (fs::path(options.job.out) / "objects.bag").string();
+  options.job.ground_truth = node.param<std::string>("ground_truth", "");
+  options.job.points = pointsFrom(node.param<std::string>("points", ""));
+  options.job.video = node.param("video", false);
+  options.min_iou = node.param("min_iou", options.min_iou);
+  options.idle_timeout_sec = positiveParam(node, "idle_timeout", options.idle_timeout_sec);
+  options.first_timeout_sec = positiveParam(node, "first_timeout", options.first_timeout_sec);
+  return options;
+}
+
+/// Writes every message on `objects` into a bag.
+class ObjectsRecorder {
+ public:
+  /// `last_stamp`: of the image after which no message comes.
+  ObjectsRecorder(ros::NodeHandle& node, const EvaluationJob& job, const ros::Time& last_stamp)
+      : topic_(job.recorded_topic),
+        last_stamp_(last_stamp),
+        bag_(job.recording, rosbag::bagmode::Write),
+        subscriber_(node.subscribe("objects", kQueueSize, &ObjectsRecorder::record, this)) {}
+
+  /// Returns when there is nothing more to record, in wall time: simulated time stops with the bag.
+  void run(double first_timeout_sec, double idle_timeout_sec) {
+    ros::WallTime since = ros::WallTime::now();
+    int known = 0;
+    while (ros::ok() && !ended_) {
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPollSec));
+      const ros::WallTime now = ros::WallTime::now();
+      if (count_ > known) since = now;
+      known = count_;
+      const double patience = count_ == 0 ? first_timeout_sec : idle_timeout_sec;
+      if ((now - since).toSec() > patience) break;
+    }
+    if (count_ == 0) throw std::runtime_error("no message on " + subscriber_.getTopic());
+    bag_.close();
+  }
+
+ private:
+  void record(const TrackedObjectArray& objects) {
+    ++count_;
+    ended_ = objects.header.stamp == last_stamp_;
+    // Stamped as the image: the order is that of the frames, whatever time it is here.
+    bag_.write(topic_, objects.header.stamp, objects);
+  }
+
+  std::string topic_;
+  ros::Time last_stamp_;
+  rosbag::Bag bag_;
+  int count_ = 0;
+  bool ended_ = false;
+  ros::Subscriber subscriber_;
+};
+
+ros::Time stampOfLast(const std::map<ros::Time, int>& index_of) {
+  const auto last =
+      std::max_element(index_of.begin(), index_of.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return last->first;
+}
+
+int recordAndScore() {
+  ros::NodeHandle node;
+  const Options options = readOptions(ros::NodeHandle("~"));
+  fs::create_directories(options.job.out);
+  const std::map<ros::Time, int> index_of = indexByStamp(options.job.bag, options.job.topic);
+  if (index_of.empty()) throw std::invalid_argument(options.job.bag + " has no images");
+  ObjectsRecorder recorder(node, options.job, stampOfLast(index_of));
+  recorder.run(options.first_timeout_sec, options.idle_timeout_sec);
+  const bool interrupted = !ros::ok();
+  // What has been recorded is scored all the same, which takes no longer than reading the bag.
+  const nlohmann::json summary = runJob(options.job, [] { return false; });
+  if (interrupted) return kBadInput;
+  if (std::isnan(options.min_iou)) return kGood;
+  const nlohmann::json& iou = summary["mean_iou"];
+  return !iou.is_null() && iou.get<double>() >= options.min_iou ? kGood : kBelowThreshold;
+}
+
+}  // namespace
+}  // namespace chain_tracker
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "evaluate_live");  // takes its own arguments out, such as _bag:=FILE
+  CLI::App app(
+      "Records what a tracker publishes on `objects` while a bag is played, and scores it.\n"
+      "Parameters: _bag:=FILE and _topic:=TOPIC (that are played), _out:=DIR (folder to write),\n"
+      "_ground_truth:=FILE|TOPIC, _points:=x,y,... (where the tracker is started), _video:=true,\n"
+      "_min_iou:=X, _idle_timeout:=5 (ends so long after the last message [s]),\n"
+      "_first_timeout:=60 (gives up if none has come by then [s]).\n"
+      "Exit codes: 0 scored, 1 the mean IoU is below ~min_iou, 2 bad input or no message.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? chain_tracker::kGood : chain_tracker::kBadInput;
+  }
+  try {
+    return chain_tracker::recordAndScore();
+  } catch (const std::exception& error) {
+    std::cerr << "evaluate_live: " << error.what() << "\n";
+    return chain_tracker::kBadInput;
+  }
+}

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/evaluation/evaluation_run.h"
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/refusal.h"
+
+namespace chain_tracker {
+namespace {
+
+/// Frames of which some cannot be read and some have another size.
+class FakeSource : public FrameSource {
+ public:
+  explicit FakeSource(int count, std::set<int> unreadable = {}, std::set<int> small = {})
+      : count_(count), unreadable_(std::move(unreadable)), small_(std::move(small)) {}
+
+  bool next(SourceFrame& frame) override {
+    if (next_ == count_) return false;
+    const bool bad = unreadable_.count(next_) != 0;
+    const int width = small_.count(next_) != 0 ? 20 : 40;
+    frame = {next_, next_ / 30.0, bad ? cv::Mat() : cv::Mat(30, width, CV_8UC3),
+             bad ? "frame " + std::to_string(next_) + " is broken" : ""};
+    ++next_;
+    return true;
+  }
+  int count() const override { return count_; }
+
+ private:
+  int count_;
+  std::set<int> unreadable_;
+  std::set<int> small_;
+  int next_ = 0;
+};
+
+TrackedFrame at(double x) {
+  TrackedFrame frame;
+  frame.state = "TRACKING";
+  frame.box = {x, 0.0, 10.0, 10.0};
+  frame.points = {{{x, 5.0}, 1.0, true}, {{x + 10.0, 5.0}, 1.0, true}};
+  return frame;
+}
+
+TrackedFrame lost() {
+  TrackedFrame frame = at(0.0);
+  frame.state = "LOST";
+  frame.lost = true;
+  return frame;
+}
+
+/// Reports what it was told to, one frame after another; fails where that is nothing.
+class FakeTracker : public EvaluatedTracker {
+ public:
+  FakeTracker(std::string name, std::vector<std::optional<TrackedFrame>> reports)
+      : name_(std::move(name)), reports_(std::move(reports)) {}
+
+  std::string name() const override { return name_; }
+  TrackedFrame start(const cv::Mat& image) override {
+    ++starts_;
+    return update(image);
+  }
+  TrackedFrame update(const cv::Mat&) override {
+    const auto& report = reports_.at(next_++);
+    if (!report) throw std::invalid_argument("cannot");
+    return *report;
+  }
+  int starts() const { return starts_; }
+
+ private:
+  std::string name_;
+  std::vector<std::optional<TrackedFrame>> reports_;
+  std::size_t next_ = 0;
+  int starts_ = 0;
+};
+
+using Trackers = std::vector<std::unique_ptr<EvaluatedTracker>>;
+
+Trackers only(std::vector<std::optional<TrackedFrame>> reports) {
+  Trackers trackers;
+  trackers.push_back(std::make_unique<FakeTracker>("fake", std::move(reports)));
+  return trackers;
+}
+
+GroundTruth boxesAt0(const std::set<int>& frames) {
+  GroundTruth truth;
+  for (const int frame : frames) truth.boxes[frame] = cv::Rect2d(0, 0, 10, 10);
+  return truth;
+}
+
+const std::vector<cv::Point2d> kStart = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+
+EvaluationResult run(FakeSource source, const Trackers& trackers, const GroundTruth& truth,
+                     const EvaluationOptions& options = EvaluationOptions()) {
+  return evaluate(source, trackers, truth, kStart, options);
+}
+
+TEST(EvaluationRun, KnownBoxesGetKnownScores) {
+  // 5 px beside: 50 of 150 px^2 in common.
+  const auto result = run(FakeSource(3), only({at(0.0), at(5.0), at(25.0)}), boxesAt0({0, 1, 2}));
+  const Scores& scores = result.runs.front().scores;
+  EXPECT_EQ(scores.frames, 3);
+  EXPECT_EQ(scores.scored_frames, 3);
+  EXPECT_DOUBLE_EQ(scores.mean_iou, (1.0 + 1.0 / 3.0) / 3.0);
+  EXPECT_DOUBLE_EQ(scores.pascal_50, 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(scores.mean_center_error_px, 10.0);
+  EXPECT_DOUBLE_EQ(scores.precision_20px, 2.0 / 3.0);
+  EXPECT_TRUE(std::isnan(scores.pck_10)) << "there are no true points";
+}
+
+TEST(EvaluationRun, ALostFrameIsNoOverlap) {
+  const auto result = run(FakeSource(3), only({at(0.0), lost(), at(0.0)}), boxesAt0({0, 1, 2}));
+  const Scores& scores = result.runs.front().scores;
+  EXPECT_DOUBLE_EQ(scores.mean_iou, 2.0 / 3.0);
+  EXPECT_EQ(scores.lost_frames, 1);
+  EXPECT_EQ(scores.reacquired, 1);
+}
+
+TEST(EvaluationRun, AFrameWithoutTruthDoesNotCount) {
+  const auto result = run(FakeSource(3), only({at(0.0), at(25.0), at(5.0)}), boxesAt0({0, 2}));
+  const Scores& scores = result.runs.front().scores;
+  EXPECT_EQ(scores.frames, 3);
+  EXPECT_EQ(scores.scored_frames, 2);
+  EXPECT_DOUBLE_EQ(scores.mean_iou, (1.0 + 1.0 / 3.0) / 2.0);
+}
+
+TEST(EvaluationRun, AFrameWithoutAnObjectDoesNotCount) {
+  GroundTruth truth = boxesAt0({0, 2});
+  truth.boxes[1] = std::nullopt;
+  const auto result = run(FakeSource(3), only({at(0.0), lost(), at(0.0)}), truth);
+  EXPECT_DOUBLE_EQ(result.runs.front().scores.mean_iou, 1.0);
+  EXPECT_EQ(result.runs.front().scores.lost_frames, 0);
+  EXPECT_TRUE(result.runs.front().frames[1].score.has_absence);
+}
+
+TEST(EvaluationRun, PointsAreScoredOneByOneAndAsTheirBox) {
+  GroundTruth truth;
+  truth.points[0] = {{0, {{0, 5}, true}}, {1, {{10, 5}, true}}};
+  truth.points[1] = {{0, {{0, 2}, true}}, {1, {{10, 5}, false}}};
+  const auto result = run(FakeSource(2), only({at(0.0), at(0.0)}), truth);
+  const auto& frames = result.runs.front().frames;
+  EXPECT_EQ(frames[0].score.point_errors, (std::vector<double>{0.0, 0.0}));
+  EXPECT_DOUBLE_EQ(frames[0].score.overlap, 1.0) << "the same points, the same box around them";
+  EXPECT_EQ(frames[1].score.point_errors, std::vector<double>{3.0}) << "a hidden one is not asked";
+  EXPECT_FALSE(frames[1].score.has_object) << "one point has no box";
+  EXPECT_DOUBLE_EQ(result.runs.front().scores.part_error_mean_px, 1.0);
+}
+
+TEST(EvaluationRun, BoxAroundPointsIsATenthLarger) {
+  const cv::Rect2d box = boxAround({{0, 0}, {100, 50}});
+  EXPECT_NEAR(box.x, -5.0, 1e-9);
+  EXPECT_NEAR(box.y, -2.5, 1e-9);
+  EXPECT_NEAR(box.width, 110.0, 1e-9);
+  EXPECT_NEAR(box.height, 55.0, 1e-9);
+  const cv::Rect2d flat = boxAround({{0, 7}, {100, 7}});
+  EXPECT_NEAR(flat.y, 6.5, 1e-9);
+  EXPECT_NEAR(flat.height, 1.0, 1e-9);
+}
+
+TEST(EvaluationRun, LengthOfAShape) {
+  EXPECT_DOUBLE_EQ(objectLength({{0, 0}, {30, 0}, {30, 40}}, false), 70.0);
+  EXPECT_DOUBLE_EQ(objectLength({{0, 0}, {30, 0}, {30, 40}, {0, 40}}, true), 50.0);
+}
+
+TEST(EvaluationRun, UnreadableFramesAreSkippedAndTold) {
+  const auto result = run(FakeSource(3, {1}), only({at(0.0), at(0.0)}), boxesAt0({0, 1, 2}));
+  EXPECT_EQ(result.skipped_frames, 1);
+  ASSERT_EQ(result.faults.size(), 1U);
+  EXPECT_EQ(result.faults[0], "skipped a frame: frame 1 is broken");
+  ASSERT_EQ(result.runs.front().frames.size(), 2U);
+  EXPECT_EQ(result.runs.front().frames[1].index, 2);
+}
+
+TEST(EvaluationRun, FramesOfAnotherSizeAreSkippedAndTold) {
+  const auto result = run(FakeSource(3, {}, {2}), only({at(0.0), at(0.0)}), boxesAt0({0, 1, 2}));
+  EXPECT_EQ(result.skipped_frames, 1);
+  EXPECT_NE(result.faults.at(0).find("frame 2 has another size"), std::string::npos);
+}
+
+TEST(EvaluationRun, TheFrameThatTheObjectIsGivenInMustBeReadable) {
+  EvaluationOptions options;
+  EXPECT_EQ(omissionsOf(refusalOf([&] {
+                          run(FakeSource(3, {0}), only({at(0.0), at(0.0)}), boxesAt0({0}), options);
+                        }),
+                        {"frame 0, in which the object is given", "frame 0 is broken"}),
+            "");
+  options.first_frame = 1;
+  const auto result = run(FakeSource(3, {0}), only({at(0.0), at(0.0)}), boxesAt0({1}), options);
+  EXPECT_EQ(result.runs.front().frames.front().index, 1);
+  EXPECT_EQ(result.skipped_frames, 0) << "no one asked for it";
+  options.first_frame = 3;
+  EXPECT_EQ(omissionsOf(refusalOf([&] { run(FakeSource(3), only({}), boxesAt0({0}), options); }),
+                        {"in frame 3", "of only 3"}),
+            "");
+}
+
+TEST(EvaluationRun, MaxFramesCountsFromTheFirst) {
+  EvaluationOptions options;
+  options.first_frame = 2;
+  options.max_frames = 2;
+  const auto result = run(FakeSource(9), only({at(0.0), at(0.0)}), boxesAt0({2, 3, 4}), options);
+  ASSERT_EQ(result.runs.front().frames.size(), 2U);
+  EXPECT_EQ(result.runs.front().frames.back().index, 3);
+}
+
+TEST(EvaluationRun, AnInterruptedRunKeepsItsFrames) {
+  EvaluationOptions options;
+  int asked = 0;
+  options.interrupted = [&] { return ++asked > 2; };
+  const auto result = run(FakeSource(9), only({at(0.0), at(0.0)}), boxesAt0({0, 1}), options);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.runs.front().frames.size(), 2U);
+  EXPECT_DOUBLE_EQ(result.runs.front().scores.mean_iou, 1.0);
+  options.interrupted = [] { return true; };
+  const auto none = run(FakeSource(9), only({}), boxesAt0({0}), options);
+  EXPECT_TRUE(none.interrupted);
+  EXPECT_TRUE(std::isnan(none.runs.front().scores.mean_iou));
+}
+
+TEST(EvaluationRun, ATrackerThatFailsHasLostTheObjectForGood) {
+  Trackers trackers = only({at(0.0), at(0.0), at(0.0), at(0.0)});
+  trackers.push_back(std::make_unique<FakeTracker>(
+      "other", std::vector<std::optional<TrackedFrame>>{at(0.0), {}, at(0.0), at(0.0)}));
+  const auto result = run(FakeSource(4), trackers, boxesAt0({0, 1, 2, 3}));
+  EXPECT_DOUBLE_EQ(result.runs[0].scores.mean_iou, 1.0);
+  EXPECT_DOUBLE_EQ(result.runs[1].scores.mean_iou, 0.25);
+  EXPECT_EQ(result.runs[1].scores.lost_frames, 3);
+  ASSERT_EQ(result.faults.size(), 1U) << "told once";
+  EXPECT_EQ(result.faults[0], "other failed on frame 1: cannot");
+}
+
+TEST(EvaluationRun, TheChainTrackerMustStart) {
+  EXPECT_EQ(omissionsOf(refusalOf([] { run(FakeSource(2), only({std::nullopt}), boxesAt0({0})); }),
+                        {"cannot"}),
+            "");
+}
+
+TEST(EvaluationRun, EachTrackerIsStartedOnceAndSeesEveryFrame) {
+  Trackers trackers = only({at(0.0), at(0.0), at(0.0)});
+  std::vector<int> observed;
+  std::vector<int> progress;
+  EvaluationOptions options;
+  options.observer = [&](const SourceFrame& frame, const TrackedFrame&) {
+    observed.push_back(frame.index);
+  };
+  options.progress = [&](int done) { progress.push_back(done); };
+  run(FakeSource(4, {2}), trackers, boxesAt0({0}), options);
+  EXPECT_EQ(static_cast<const FakeTracker&>(*trackers.front()).starts(), 1);
+  EXPECT_EQ(observed, (std::vector<int>{0, 1, 3}));
+  EXPECT_EQ(progress, (std::vector<int>{1, 2, 3, 4}));
+}
+
+TEST(ScoreRecording, FramesWithoutAReportAreDropsAndDoNotCount) {
+  FakeSource source(6, {4});
+  const std::map<int, RecordedFrame> recording = {
+      {0, {9.0, at(0.0)}}, {1, {2.0, at(5.0)}}, {3, {4.0, lost()}}};
+  const auto result =
+      scoreRecording(source, recording, boxesAt0({0, 1, 2, 3, 4, 5}), kStart, EvaluationOptions());
+  EXPECT_EQ(result.dropped_frames, 2) << "frames 2 and 5";
+  EXPECT_EQ(result.skipped_frames, 1) << "frame 4";
+  const Scores& scores = result.runs.front().scores;
+  EXPECT_EQ(scores.frames, 3);
+  EXPECT_DOUBLE_EQ(scores.mean_iou, (1.0 + 1.0 / 3.0 + 0.0) / 3.0);
+  EXPECT_EQ(scores.lost_frames, 1);
+  EXPECT_DOUBLE_EQ(scores.latency_p50_ms, 3.0) << "of the updates, without the start";
+  EXPECT_EQ(result.runs.front().frames[1].index, 1);
+}
+
+}  // namespace
+}  // namespace chain_tracker

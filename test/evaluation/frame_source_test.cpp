@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/evaluation/frame_source.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "../support/refusal.h"
+
+namespace chain_tracker {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FrameSources : public testing::Test {
+ protected:
+  FrameSources()
+      : folder_(fs::path(testing::TempDir()) /
+                (std::string("frame_source_") +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "img");
+  }
+  ~FrameSources() override { fs::remove_all(folder_); }
+
+  static cv::Mat picture(int level) { return cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(level)); }
+
+  void writePicture(const std::string& name, int level) const {
+    ASSERT_TRUE(cv::imwrite((folder_ / "img" / name).string(), picture(level)));
+  }
+
+  /// Three frames of the levels 50, 100 and 150, 10 a second.
+  std::string writeVideo(const std::string& name) const {
+    const std::string path = (folder_ / name).string();
+    cv::VideoWriter writer(path, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10.0, {64, 48});
+    EXPECT_TRUE(writer.isOpened());
+    for (const int level : {50, 100, 150}) writer.write(picture(level));
+    return path;
+  }
+
+  static std::vector<SourceFrame> all(const std::string& path) {
+    const auto source = openFrames(path);
+    std::vector<SourceFrame> frames;
+    SourceFrame frame;
+    while (source->next(frame)) frames.push_back(frame);
+    return frames;
+  }
+
+  static double levelOf(const SourceFrame& frame) { return cv::mean(frame.image)[0]; }
+
+  fs::path folder_;
+};
+
+TEST_F(FrameSources, PicturesComeInTheOrderOfTheirNames) {
+  writePicture("0002.png", 20);
+  writePicture("0001.bmp", 10);
+  writePicture("0010.jpg", 100);
+  std::ofstream(folder_ / "img" / "notes.txt") << "no picture";
+  const std::vector<SourceFrame> frames = all(folder_.string());
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_NEAR(levelOf(frames[0]), 10, 1);
+  EXPECT_NEAR(levelOf(frames[1]), 20, 1);
+  EXPECT_NEAR(levelOf(frames[2]), 100, 2);
+  EXPECT_EQ(frames[2].index, 2);
+  EXPECT_NEAR(frames[2].time_sec, 2.0 / 30.0, 1e-9);
+  EXPECT_EQ(openFrames(folder_.string())->count(), 3);
+}
+
+TEST_F(FrameSources, AnUnreadablePictureIsAFrameWithAFault) {
+  writePicture("0.png", 10);
+  std::ofstream(folder_ / "img" / "1.png") << "no picture";
+  writePicture("2.png", 20);
+  const std::vector<SourceFrame> frames = all(folder_.string());
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_TRUE(frames[1].image.empty());
+  EXPECT_EQ(frames[1].index, 1);
+  EXPECT_EQ(frames[1].fault, (folder_ / "img/1.png").string() + " cannot be read as an image");
+  EXPECT_EQ(frames[2].index, 2);
+  EXPECT_TRUE(frames[2].fault.empty());
+}
+
+TEST_F(FrameSources, AVideoHasItsOwnRate) {
+  fs::remove_all(folder_ / "img");
+  const std::string video = writeVideo("clip.avi");
+  for (const std::string& path : {folder_.string(), video}) {
+    const std::vector<SourceFrame> frames = all(path);
+    ASSERT_EQ(frames.size(), 3U) << path;
+    EXPECT_NEAR(levelOf(frames[1]), 100, 3);
+    EXPECT_NEAR(frames[2].time_sec, 0.2, 1e-6);
+  }
+}
+
+TEST_F(FrameSources, PicturesComeBeforeAVideo) {
+  writeVideo("clip.avi");
+  writePicture("0.png", 10);
+  EXPECT_EQ(all(folder_.string()).size(), 1U);
+}
+
+TEST_F(FrameSources, WithoutFramesThePathIsNamed) {
+  EXPECT_EQ(omissionsOf(refusalOf([&] { openFrames("/no/such/folder"); }),
+                        {"/no/such/folder does not exist"}),
+            "");
+  EXPECT_EQ(omissionsOf(refusalOf([&] { openFrames(folder_.string()); }),
+                        {folder_.string() + " has no pictures in img/ and 0 video files"}),
+            "");
+  writeVideo("a.avi");
+  writeVideo("b.avi");
+  EXPECT_EQ(omissionsOf(refusalOf([&] { openFrames(folder_.string()); }),
+                        {"2 video files (*.mp4, *.avi), must have one"}),
+            "");
+  std::ofstream(folder_ / "c.txt") << "no video";
+  EXPECT_EQ(omissionsOf(refusalOf([&] { openFrames((folder_ / "c.txt").string()); }),
+                        {"c.txt cannot be opened as a video"}),
+            "");
+}
+
+}  // namespace
+}  // namespace chain_tracker

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/evaluation/ground_truth.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "../support/refusal.h"
+
+namespace chain_tracker {
+namespace {
+
+namespace fs = std::filesystem;
+
+class GroundTruthFiles : public testing::Test {
+ protected:
+  GroundTruthFiles()
+      : folder_(fs::path(testing::TempDir()) /
+                (std::string("ground_truth_") +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~GroundTruthFiles() override { fs::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& content) const {
+    const std::string path = (folder_ / name).string();
+    std::ofstream(path) << content;
+    return path;
+  }
+
+  GroundTruth boxesIn(const std::string& content) const {
+    GroundTruth truth;
+    readBoxes(write("groundtruth_rect.txt", content), truth);
+    return truth;
+  }
+
+  GroundTruth pointsIn(const std::string& content) const {
+    GroundTruth truth;
+    readPoints(write("groundtruth_parts.csv", content), truth);
+    return truth;
+  }
+
+  SequenceStart startIn(const std::string& init) const {
+    write("init.yaml", init);
+    return readStart(folder_.string(), GroundTruth()).value();
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(GroundTruthFiles, BoxesMayBeSeparatedByCommasTabsOrSpaces) {
+  const GroundTruth truth = boxesIn("1,2,30,40\n1\t2\t30\t40\r\n1 2  30 40\n1, 2, 30, 40\n");
+  ASSERT_EQ(truth.boxes.size(), 4U);
+  for (const auto& [frame, box] : truth.boxes) {
+    EXPECT_EQ(box, cv::Rect2d(1, 2, 30, 40)) << "frame " << frame;
+  }
+  EXPECT_TRUE(truth.first_polygon.empty());
+}
+
+TEST_F(GroundTruthFiles, PolygonsBecomeTheirUprightBoxes) {
+  const GroundTruth truth = boxesIn("10,0,20,10,10,20,0,10\n5,6,7,8\n");
+  EXPECT_EQ(truth.boxes.at(0), cv::Rect2d(0, 0, 20, 20));
+  EXPECT_EQ(truth.boxes.at(1), cv::Rect2d(5, 6, 7, 8));
+  ASSERT_EQ(truth.first_polygon.size(), 4U);
+  EXPECT_EQ(truth.first_polygon[1], cv::Point2d(20, 10));
+}
+
+TEST_F(GroundTruthFiles, NanOrAnEmptyBoxSaysThatThereIsNoObject) {
+  const GroundTruth truth = boxesIn("1,2,30,40\nNaN,NaN,NaN,NaN\nnan 2 3 4\n0,0,0,0\n5,6,7,8\n");
+  ASSERT_EQ(truth.boxes.size(), 5U);
+  for (const int frame : {1, 2, 3}) EXPECT_FALSE(truth.boxes.at(frame)) << "frame " << frame;
+  EXPECT_EQ(truth.boxes.at(4), cv::Rect2d(5, 6, 7, 8));
+}
+
+TEST_F(GroundTruthFiles, FaultyBoxesAreNamedByFileAndLine) {
+  const std::string place = (folder_ / "groundtruth_rect.txt").string();
+  EXPECT_EQ(omissionsOf(refusalOf([&] { boxesIn("1,2,3,4\n1,2,3\n"); }),
+                        {place + ":2: has 3 numbers, must be x,y,w,h"}),
+            "");
+  EXPECT_EQ(omissionsOf(refusalOf([&] { boxesIn("1,2,3,4\n\n1,2,x,4\n"); }),
+                        {place + ":3: '1,2,x,4' has something"}),
+            "");
+  GroundTruth truth;
+  EXPECT_EQ(omissionsOf(refusalOf([&] { readBoxes("/no/such.txt", truth); }),
+                        {"ground truth /no/such.txt cannot be read"}),
+            "");
+}
+
+TEST_F(GroundTruthFiles, PointsByFrameAndPart) {
+  const GroundTruth truth =
+      pointsIn("frame,part,x,y,visible\n0,0,1.5,2.5,1\n0,1,3,4,0\n2,0,nan,nan,1\n2,1,5,6,1\n");
+  ASSERT_EQ(truth.points.size(), 2U);
+  EXPECT_EQ(truth.points.at(0).at(0).position, cv::Point2d(1.5, 2.5));
+  EXPECT_TRUE(truth.points.at(0).at(0).visible);
+  EXPECT_FALSE(truth.points.at(0).at(1).visible);
+  EXPECT_EQ(truth.points.at(2).count(0), 0U) << "NaN: not known";
+  EXPECT_EQ(truth.points.at(2).at(1).position, cv::Point2d(5, 6));
+}
+
+TEST_F(GroundTruthFiles, FaultyPointsAreNamedByFileAndLine) {
+  const std::string place = (folder_ / "groundtruth_parts.csv").string();
+  const std::string header = "frame,part,x,y,visible\n";
+  EXPECT_EQ(
+      omissionsOf(refusalOf([&] { pointsIn(""); }), {place + ":1: is '', must be the header"}), "");
+  EXPECT_EQ(omissionsOf(refusalOf([&] { pointsIn("0,0,1,2,1\n"); }),
+                        {place + ":1: is '0,0,1,2,1', must be the header"}),
+            "");
+  EXPECT_EQ(omissionsOf(refusalOf([&] { pointsIn(header + "0,0,1,2\n"); }),
+                        {place + ":2: has 4 numbers, must have 5"}),
+            "");
+  EXPECT_EQ(omissionsOf(refusalOf([&] { pointsIn(header + "0,0,1,2,1\n0,1,a,2,1\n"); }),
+                        {place + ":3: '0,1,a,2,1' has"}),
+            "");
+  EXPECT_EQ(omissionsOf(refusalOf([&] { pointsIn(header + "-1,0,1,2,1\n"); }),
+                        {place + ":2: frame and part must be whole"}),
+            "");
+  EXPECT_EQ(omissionsOf(refusalOf([&] { pointsIn(header + "0.5,0,1,2,1\n"); }),
+                        {place + ":2: frame and part must be whole"}),
+            "");
+}
+
+TEST_F(GroundTruthFiles, AFolderMayHaveEitherFileBothOrNone) {
+  EXPECT_TRUE(readGroundTruth(folder_.string()).empty());
+  write("groundtruth_rect.txt", "1,2,3,4\n");
+  EXPECT_EQ(readGroundTruth(folder_.string()).boxes.size(), 1U);
+  write("groundtruth_parts.csv", "frame,part,x,y,visible\n0,0,1,2,1\n");
+  const GroundTruth both = readGroundTruth(folder_.string());
+  EXPECT_EQ(both.boxes.size(), 1U);
+  EXPECT_EQ(both.points.size(), 1U);
+}
+
+TEST_F(GroundTruthFiles, InitSaysModelPointsAndFrame) {
+  const SequenceStart start = startIn("model: cable\npoints: [[1, 2], [3.5, 4]]\nfirst_frame: 7\n");
+  EXPECT_EQ(start.model, "cable");
+  EXPECT_EQ(start.points, (std::vector<cv::Point2d>{{1, 2}, {3.5, 4}}));
+  EXPECT_EQ(start.first_frame, 7);
+}
+
+TEST_F(GroundTruthFiles, FaultyInitIsNamedByFileAndLine) {
+  const std::string place = (folder_ / "init.yaml").string();
+  EXPECT_EQ(omissionsOf(refusalOf([&] { startIn("model: box\npionts: []\n"); }),
+                        {place + ":2: unknown key 'pionts'"}),
+            "");
+  EXPECT_EQ(omissionsOf(refusalOf([&] { startIn("points:\n  - [1, 2]\n  - [1, 2, 3]\n"); }),
+                        {place + ":3: a point must be"}),
+            "");
+  EXPECT_EQ(
+      omissionsOf(refusalOf([&] { startIn("model: box\nfirst_frame: soon\n"); }), {place + ":2: "}),
+      "");
+  EXPECT_EQ(omissionsOf(refusalOf([&] { startIn("points: [[1, x]]\n"); }), {place + ":1: "}), "");
+  EXPECT_EQ(omissionsOf(refusalOf([&] { startIn("model: [box\n"); }), {place + ":"}), "");
+  EXPECT_EQ(omissionsOf(refusalOf([&] { startIn("first_frame: -3\n"); }),
+                        {place + ":1: first_frame is -3"}),
+            "");
+}
+
+TEST_F(GroundTruthFiles, WithoutInitTheFirstTruthStarts) {
+  EXPECT_FALSE(readStart(folder_.string(), GroundTruth()));
+  const auto box = readStart(folder_.string(), boxesIn("nan,nan,nan,nan\n1,2,30,40\n"));
+  ASSERT_TRUE(box);
+  EXPECT_EQ(box->first_frame, 1);
+  EXPECT_EQ(box->model, "auto");
+  EXPECT_EQ(box->points, (std::vector<cv::Point2d>{{1, 2}, {31, 2}, {31, 42}, {1, 42}}));
+  const auto polygon = readStart(folder_.string(), boxesIn("10,0,20,10,10,20,0,10\n"));
+  EXPECT_EQ(polygon->points, (std::vector<cv::Point2d>{{10, 0}, {20, 10}, {10, 20}, {0, 10}}));
+  const auto points =
+      readStart(folder_.string(), pointsIn("frame,part,x,y,visible\n3,0,1,2,1\n3,1,5,6,1\n"));
+  EXPECT_EQ(points->first_frame, 3);
+  EXPECT_EQ(points->points, (std::vector<cv::Point2d>{{1, 2}, {5, 6}}));
+}
+
+TEST_F(GroundTruthFiles, InitWithoutPointsLeavesThemToTheTruth) {
+  write("init.yaml", "model: cable\n");
+  const auto start = readStart(folder_.string(), boxesIn("1,2,30,40\n"));
+  EXPECT_EQ(start->model, "cable");
+  EXPECT_EQ(start->points.size(), 4U);
+}
+
+}  // namespace
+}  // namespace chain_tracker

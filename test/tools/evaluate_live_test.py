@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""launch/evaluate.launch: the figures of the running tracker are those of the tracker in-process."""
+import os
+import socket
+import subprocess
+import unittest
+
+from programs import TOPIC, ProgramTest, points_in, run, summary_in, without_times
+
+
+def free_port():
+    with socket.socket() as candidate:
+        candidate.bind(("", 0))
+        return candidate.getsockname()[1]
+
+
+class Live(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.sequence = cls.render("bottle", "bottle", 40)
+        cls.bag = cls.folder / "bottle.bag"
+        assert run("make_bag", "--sequence", cls.sequence, "--out", cls.bag).returncode == 0
+        cls.live = cls.folder / "live"
+        port = free_port()
+        environment = dict(os.environ, ROS_MASTER_URI=f"http://127.0.0.1:{port}",
+                           ROS_IP="127.0.0.1", ROS_HOME=str(cls.folder / "ros"))
+        environment.pop("ROS_HOSTNAME", None)
+        # Slow enough that nothing has to be dropped.
+        cls.launch = subprocess.run(
+            ["roslaunch", "-p", str(port), "chain_tracker", "evaluate.launch", f"bag:={cls.bag}",
+             f"points:={points_in(cls.sequence)}", "model:=bottle", "rate:=0.2",
+             f"ground_truth:={cls.sequence}/groundtruth_parts.csv", f"out:={cls.live}"],
+            env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            timeout=150)
+
+    def evaluate_bag(self, name, *arguments):
+        out = self.folder / name
+        said = self.evaluate("--bag", self.bag, "--topic", TOPIC, "--points",
+                             points_in(self.sequence), "--ground-truth",
+                             self.sequence / "groundtruth_parts.csv", "--no-report", "--out", out,
+                             *arguments)
+        return out, said
+
+    def assert_same_rows(self, name, one, other, tolerance):
+        rows = zip(without_times(one / name), without_times(other / name))
+        for mine, theirs in rows:
+            for key, value in mine.items():
+                try:
+                    self.assertAlmostEqual(float(value), float(theirs[key]), delta=tolerance)
+                except ValueError:
+                    self.assertEqual(value, theirs[key])
+
+    def test_figures_are_those_in_process(self):
+        self.assertTrue((self.live / "summary.json").exists(), self.launch.stdout)
+        live = summary_in(self.live)
+        out, _ = self.evaluate_bag("in_process", "--model", "bottle")
+        expected = summary_in(out)
+        self.assertEqual(live["dropped_frames"], 0, self.launch.stdout)
+        self.assertEqual((live["frames"], live["scored_frames"]), (40, 40))
+        self.assertEqual(live["model"], expected["model"])
+        self.assertEqual(live["lost_frames"], expected["lost_frames"])
+        for key in ("mean_iou", "success_auc", "pascal_50", "precision_20px", "pck_10"):
+            self.assertAlmostEqual(live[key], expected[key], delta=1e-4, msg=key)
+        self.assertAlmostEqual(live["mean_center_error_px"], expected["mean_center_error_px"],
+                               delta=1e-3)
+        self.assertAlmostEqual(live["part_error_px"]["mean"], expected["part_error_px"]["mean"],
+                               delta=1e-3)
+        # Messages hold single precision, tables two decimals.
+        for name in ("objects.csv", "parts.csv", "points.csv"):
+            self.assert_same_rows(name, self.live, out, 0.011)
+        self.assertGreater(live["latency_ms"]["p50"], 0)
+        self.assertTrue((self.live / "report.html").exists(), self.launch.stdout)
+
+    def test_the_recording_can_be_scored_again(self):
+        out, _ = self.evaluate_bag("again", "--recording", self.live / "objects.bag")
+        self.assertEqual(summary_in(out), summary_in(self.live))
+
+    def test_drops_are_told_and_do_not_count(self):
+        recording = self.folder / "with_drops.bag"
+        # Every fourth message is missing.
+        script = ("import sys, rosbag\n"
+                  "out = rosbag.Bag(sys.argv[2], 'w')\n"
+                  "for i, (topic, message, time) in enumerate(rosbag.Bag(sys.argv[1])):\n"
+                  "    if i % 4 != 3: out.write(topic, message, time)\n"
+                  "out.close()\n")
+        subprocess.run(["/usr/bin/python3", "-c", script, self.live / "objects.bag", recording],
+                       check=True)
+        out, said = self.evaluate_bag("drops", "--recording", recording)
+        self.assertIn("the recorded tracker dropped 10 frames", said)
+        summary = summary_in(out)
+        self.assertEqual((summary["frames"], summary["dropped_frames"]), (30, 10))
+        every = {row["frame"]: row for row in without_times(self.live / "scores.csv")}
+        scored = without_times(out / "scores.csv")
+        self.assertEqual(scored, [every[row["frame"]] for row in scored])
+        overlaps = [float(row["iou"]) for row in scored]
+        self.assertAlmostEqual(summary["mean_iou"], sum(overlaps) / 30, delta=1e-4)
+
+
+if __name__ == "__main__":
+    unittest.main()
