@@ -239,8 +239,12 @@ std::vector<EdgeStencil> sampleEdges(const SegmentLayout& segment,
   for (size_t k = 0; k < segment.edges.size(); ++k) {
     const LatticeShift shift = shiftBetween(candidates, k);
     rests[k] = shift.rest;
+    const auto canShare = [&](size_t other) {
+      return !samples[other].empty() && rests[other] == rests[k] &&
+             areAlike(segment.edges[other], segment.edges[k]);
+    };
     size_t twin = 0;
-    while (!(areAlike(segment.edges[twin], segment.edges[k]) && rests[twin] == rests[k])) ++twin;
+    while (twin < k && !canShare(twin)) ++twin;
     if (twin == k) samples[k] = sampleSpring(segment.edges[k], pose, candidates.step, shift.rest);
     stencils.push_back(
         betweenStates(samples[twin], shift.steps, candidates.states - cv::Size(1, 1)));

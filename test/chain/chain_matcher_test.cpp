@@ -107,6 +107,16 @@ TEST(SampleEdges, costWhatTheSpringsCostBetweenTheCandidates) {
   }
 }
 
+/// Each edge is like the one before, the last one not like the first.
+TEST(SampleEdges, leaveNoEdgeOfNearlyEqualOnesOut) {
+  const SegmentLayout segment = chainOf(
+      {{14.0, 0.3, 0.1, 0.2}, {14.0, 0.3 + 0.9e-6, 0.1, 0.2}, {14.0, 0.3 + 1.8e-6, 0.1, 0.2}});
+  const CandidateGrid grid = makeCandidateGrid(placed(segment, {0.0, 1.0, {50, 50}}), 10.0, 1, 6.0);
+  for (const EdgeStencil& edge : sampleEdges(segment, candidatesOn(grid, {}), {0.0, 1.0})) {
+    EXPECT_FALSE(edge.empty());
+  }
+}
+
 /// Several segments end to end, few states and poses, somewhere, with random costs.
 struct TinyChain {
   std::vector<SegmentLayout> segments;
