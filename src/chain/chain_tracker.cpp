@@ -352,6 +352,21 @@ class ChainTracker::Implementation {
     for (size_t m = 0; m < segments(); ++m) fitSegment(m, refinement.poses[m], found);
     shape_.carry(found);
     state_ = std::move(found);
+    relaxSprings();
+  }
+
+  /// What bends anywhere has no shape of its own: its springs rest where they were last found, so
+  /// that it may bend as far as it likes, but not at once.
+  void relaxSprings() {
+    for (size_t m = 0; m < segments(); ++m) {
+      if (layout_.segments[m].layout != Layout::kDeformable) continue;
+      const std::vector<cv::Point2d> nodes = nodePositions(m);
+      const double orientation = state_.segments[m].image_from_segment.angle;
+      std::vector<EdgeLayout>& edges = layout_.segments[m].edges;
+      for (size_t k = 0; k < edges.size(); ++k) {
+        edges[k].direction = wrapAngle(directionOf(nodes[k + 1] - nodes[k]) - orientation);
+      }
+    }
   }
 
   PartState partState(const RefinedPart& refined) const {

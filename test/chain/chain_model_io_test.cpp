@@ -242,9 +242,7 @@ TEST(ShippedModels, cableBendsAndIsSearchedUnderOnePose) {
   SegmentModel& segment = expected.segments[0];
   segment.name = "cable";
   segment.layout = Layout::kDeformable;
-  segment.parts = 12;
-  segment.aspect = 0.1;
-  segment.bend_sigma = 0.4;
+  segment.aspect = 0.05;
   segment.orientation_hypotheses = 1;
   segment.scale_hypotheses = 1;
   EXPECT_EQ("", differencesOf(expected, loadChainModel(kShippedModels + "/cable.yaml")));

@@ -27,7 +27,9 @@ struct SegmentModel {
   double aspect = 0.4;          ///< width over length of an elongated object given by its two ends
   double window = 1.15;         ///< window side over cell side, or over the step along the polyline
   double stretch_sigma = 0.05;  ///< standard deviation of an edge's length, fraction of the length
-  double bend_sigma = 0.1;      ///< standard deviation of an edge's angular displacement [rad]
+  /// Standard deviation of an edge's angular displacement [rad]: from the shape laid out; of a
+  /// deformable segment, which keeps no shape, from that of the frame before.
+  double bend_sigma = 0.1;
   int orientation_hypotheses = 5;  ///< odd; orientations tried around the previous one
   double orientation_step = 0.1;   ///< between neighbouring orientation hypotheses [rad]
   double orientation_sigma = 0.1;  ///< of the turn between two frames [rad]
