@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// From an ensemble to the cheapest ensemble of trees.
 ///
-/// The space. Every kernel is split into factors: 1 - X^n and 1 - Y^n as often as they divide it,
-/// the longest first, then 1 + X^n and 1 + Y^n; what is left stays whole, or is split into its part
+/// The space. Every kernel is split into factors: 1 - X^n and 1 - Y^n as often as they divide it
+/// without leaving more taps, the longest first, then 1 + X^n and 1 + Y^n; what is left stays whole, or is split into its part
 /// in X and its part in Y if it separates. Where the ensemble also has the factor 1 - X^m and
 /// n = 2m or n = 3m, 1 - X^n is split further into 1 - X^m and the rest; the same in Y. The
 /// products of some of a kernel's factors are its divisors. A tree of the space takes every
@@ -25,7 +25,8 @@
 namespace chain_tracker::haar {
 
 struct ParserOptions {
-  bool factor = true;                 ///< off: kernels stay whole
+  bool factor = true;       ///< off: kernels stay whole
+  bool share_reads = true;  ///< off: every tap of every edge kernel counts as a read
   int search_rounds = 400;            ///< disturbances of the local search, >= 0
   std::int64_t exact_trees = 300000;  ///< 0: no exact search
 };
