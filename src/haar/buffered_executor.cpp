@@ -15,6 +15,8 @@ namespace {
 /// Elements that may be computed beyond the last one needed, so that vectors are full.
 constexpr int kSlack = 64;
 constexpr int kFullVector = 16;
+/// Rows computed by one step before the next step follows.
+constexpr int kBatchRows = 8;
 constexpr size_t kAlignment = 64;
 /// Responses larger than this are written around the caches [bytes].
 constexpr size_t kStreamedBytes = size_t{24} << 20;
@@ -46,8 +48,11 @@ class RowRing {
     return first_ + static_cast<size_t>(row & mask_) * stride_ +
            static_cast<size_t>(column) * element_size_;
   }
+  /// Rows from this one on that lie below one another in memory.
+  int rowsFrom(int row) const { return mask_ + 1 - (row & mask_); }
+  /// Elements from a row to the next.
+  std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(stride_ / element_size_); }
   size_t bytes() const { return memory_.size(); }
-  void clear() { std::fill(memory_.begin(), memory_.end(), std::uint8_t{0}); }
 
  private:
   size_t element_size_;
@@ -96,17 +101,20 @@ class TileRunner {
     }
     rows += bottom_ - top_;
     for (const PlanBuffer& buffer : plan.buffers()) {
-      rings_.emplace_back(buffer, rings ? buffer.ring_rows : powerOfTwoFrom(rows),
+      rings_.emplace_back(buffer,
+                          powerOfTwoFrom(rings ? buffer.delays + kBatchRows : rows + kBatchRows),
                           strip_columns + right - left_);
       if (buffer.node == 0) integrals_.push_back(rings_.size() - 1);
     }
     pixels_.resize(static_cast<size_t>(strip_columns + right - left_ + kSlack));
     zeros_.resize(pixels_.size() * sizeof(std::uint32_t));
-    response_.resize(static_cast<size_t>(strip_columns + kSlack));
+    response_.resize(static_cast<size_t>(strip_columns) * kBatchRows);
     size_t inputs = 0;
     for (const PlanStep& step : plan.steps()) {
       inputs = std::max(inputs, step.inputs.size());
-      kinds_.push_back(kindOf(step, plan.buffers()[static_cast<size_t>(step.source)]));
+      std::vector<std::int32_t> weights;
+      for (const PlanInput& input : step.inputs) weights.push_back(input.weight);
+      sums_.emplace_back(kindOf(step, plan.buffers()[static_cast<size_t>(step.source)]), weights);
     }
     inputs_.resize(inputs);
   }
@@ -119,9 +127,13 @@ class TileRunner {
 
   void run(const BytePlane& plane, const Tile& tile, const Destination& destination) noexcept {
     const int first = tile.rows.start + top_;
-    for (int row = first; row < tile.rows.end + bottom_; ++row) {
-      integrate(plane, tile, row, row == first);
-      for (size_t i = 0; i < plan_.steps().size(); ++i) runStep(i, tile, row, destination);
+    const int last = tile.rows.end + bottom_;
+    for (int start = first; start < last; start += kBatchRows) {
+      const cv::Range batch(start, std::min(last, start + kBatchRows));
+      for (int row = batch.start; row < batch.end; ++row) {
+        integrate(plane, tile, row, row == first);
+      }
+      for (size_t i = 0; i < plan_.steps().size(); ++i) runStep(i, tile, batch, destination);
     }
   }
 
@@ -166,48 +178,88 @@ class TileRunner {
     return pixels_.data();
   }
 
-  void runStep(size_t index, const Tile& tile, int row, const Destination& destination) noexcept {
+  void runStep(size_t index, const Tile& tile, const cv::Range& batch,
+               const Destination& destination) noexcept {
     const PlanStep& step = plan_.steps()[index];
+    cv::Range rows = batch;
     if (step.target >= 0) {
-      const auto target = static_cast<size_t>(step.target);
-      const Reach& reach = buffer(target).reach;
-      if (row < tile.rows.start + reach.top || row >= tile.rows.end + reach.bottom) return;
-      const int begin = reach.left - left_;
-      bindInputs(step, row, begin);
-      sumRows({kinds_[index], false}, inputs_.data(), step.inputs.size(),
-              rings_[target].at(row, begin),
-              roundedUp(tile.columns.size() + reach.right - reach.left, kFullVector));
-      return;
+      const Reach& reach = buffer(static_cast<size_t>(step.target)).reach;
+      rows.start = std::max(rows.start, tile.rows.start + reach.top);
+      rows.end = std::min(rows.end, tile.rows.end + reach.bottom);
+    } else {
+      rows.start = std::max(rows.start, tile.rows.start + step.advance.y);
+      rows.end = std::min(rows.end, tile.rows.end + step.advance.y);
     }
-    const int image_row = row - step.advance.y;
-    if (image_row < tile.rows.start || image_row >= tile.rows.end) return;
-    bindInputs(step, row, step.advance.x - left_);
-    writeResponse(index, tile, image_row, destination);
+    while (rows.start < rows.end) {
+      const int count = std::min(rows.size(), contiguousRows(step, rows.start));
+      if (step.target >= 0) {
+        writeBuffer(index, tile, rows.start, count);
+      } else {
+        writeResponse(index, tile, rows.start, count, destination);
+      }
+      rows.start += count;
+    }
   }
 
-  void bindInputs(const PlanStep& step, int row, int column) noexcept {
+  /// Rows that can be summed in one go: until a ring comes round.
+  int contiguousRows(const PlanStep& step, int row) const noexcept {
+    const RowRing& source = rings_[static_cast<size_t>(step.source)];
+    int rows =
+        step.target >= 0 ? rings_[static_cast<size_t>(step.target)].rowsFrom(row) : kBatchRows;
+    for (const PlanInput& input : step.inputs) {
+      rows = std::min(rows, source.rowsFrom(row - input.dy));
+    }
+    return rows;
+  }
+
+  void bindInputs(size_t index, int row, int column) noexcept {
+    const PlanStep& step = plan_.steps()[index];
+    const std::vector<size_t>& order = sums_[index].order();
     RowRing& source = rings_[static_cast<size_t>(step.source)];
-    for (size_t i = 0; i < step.inputs.size(); ++i) {
-      const PlanInput& input = step.inputs[i];
-      inputs_[i] = {source.at(row - input.dy, column - input.dx), input.weight};
+    for (size_t i = 0; i < order.size(); ++i) {
+      const PlanInput& input = step.inputs[order[i]];
+      inputs_[i] = source.at(row - input.dy, column - input.dx);
     }
   }
 
-  void writeResponse(size_t index, const Tile& tile, int image_row,
+  void writeBuffer(size_t index, const Tile& tile, int row, int rows) noexcept {
+    const PlanStep& step = plan_.steps()[index];
+    const Reach& reach = buffer(static_cast<size_t>(step.target)).reach;
+    RowRing& target = rings_[static_cast<size_t>(step.target)];
+    const int begin = reach.left - left_;
+    const int columns = roundedUp(tile.columns.size() + reach.right - reach.left, kFullVector);
+    bindInputs(index, row, begin);
+    sums_[index].run(
+        inputs_.data(), target.at(row, begin),
+        {rows, columns, rings_[static_cast<size_t>(step.source)].stride(), target.stride()});
+  }
+
+  void writeResponse(size_t index, const Tile& tile, int row, int rows,
                      const Destination& destination) noexcept {
     const PlanStep& step = plan_.steps()[index];
-    const int count = tile.columns.size();
+    const int image_row = row - step.advance.y;
+    RowBlock block{rows, tile.columns.size(), rings_[static_cast<size_t>(step.source)].stride(),
+                   tile.columns.size()};
+    bindInputs(index, row, step.advance.x - left_);
     if (destination.consumer != nullptr) {
-      sumRows({kinds_[index], false}, inputs_.data(), step.inputs.size(), response_.data(), count);
-      destination.consumer->consume({destination.plane, step.feature, image_row, tile.columns.start,
-                                     count, response_.data()});
+      sums_[index].run(inputs_.data(), response_.data(), block);
+      for (int i = 0; i < rows; ++i) {
+        destination.consumer->consume({destination.plane, step.feature, image_row + i,
+                                       tile.columns.start, block.columns,
+                                       response_.data() + i * block.columns});
+      }
       return;
     }
     const ResponsePlane& response = destination.planes[step.feature];
+    block.target_stride = response.stride;
     std::int32_t* target = response.data + image_row * response.stride + tile.columns.start;
-    const bool aligned = reinterpret_cast<std::uintptr_t>(target) % 16 == 0;
-    sumRows({kinds_[index], destination.streaming && aligned}, inputs_.data(), step.inputs.size(),
-            target, count);
+    const bool aligned =
+        reinterpret_cast<std::uintptr_t>(target) % 16 == 0 && response.stride % 4 == 0;
+    if (destination.streaming && aligned) {
+      sums_[index].runStreaming(inputs_.data(), target, block);
+    } else {
+      sums_[index].run(inputs_.data(), target, block);
+    }
   }
 
   const ConvolutionPlan& plan_;
@@ -217,11 +269,11 @@ class TileRunner {
   int bottom_ = 0;
   std::vector<RowRing> rings_;
   std::vector<size_t> integrals_;  ///< buffers of the integral image
-  std::vector<RowKind> kinds_;     ///< of the steps
+  std::vector<RowSum> sums_;       ///< of the steps
   std::vector<std::uint8_t> pixels_;
   std::vector<std::uint8_t> zeros_;
   std::vector<std::int32_t> response_;
-  std::vector<RowInput> inputs_;
+  std::vector<const void*> inputs_;
 };
 
 void requireUsable(const cv::Size& size, const ExecutorOptions& options) {

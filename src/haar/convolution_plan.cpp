@@ -21,12 +21,6 @@ bool fits16(const ValueRange& range) {
   return fitsSigned16(range) || range.within(0, kLargestUnsigned16);
 }
 
-int powerOfTwoFrom(int least) {
-  int power = 1;
-  while (power < least) power *= 2;
-  return power;
-}
-
 PassTree treeOf(const FeatureEnsemble& ensemble, const PlanOptions& options) {
   ParserOptions parser;
   parser.factor = options.factor;
@@ -227,7 +221,7 @@ void ConvolutionPlan::measureReach() {
     buffer.reach = is_reached[source] ? unionOf(buffer.reach, needed) : needed;
     is_reached[source] = true;
     for (const PlanInput& input : step->inputs) {
-      buffer.ring_rows = std::max(buffer.ring_rows, powerOfTwoFrom(input.dy + 1));
+      buffer.delays = std::max(buffer.delays, input.dy);
     }
   }
 }

@@ -63,17 +63,19 @@ void CornerReads::run(const cv::Mat1b& image, std::vector<cv::Mat1i>& responses)
                      cv::BORDER_CONSTANT, 0);
   cv::integral(padded_, integral_, CV_32S);
   responses.resize(corners_.size());
-  std::vector<RowInput> inputs;
   for (size_t i = 0; i < corners_.size(); ++i) {
+    std::vector<std::int32_t> weights;
+    for (const Corner& corner : corners_[i]) weights.push_back(corner.weight);
+    const RowSum sum(RowKind::k32To32, weights);
+    std::vector<const void*> rows(weights.size());
     responses[i].create(image.size());
     for (int y = 0; y < image.rows; ++y) {
-      inputs.clear();
-      for (const Corner& corner : corners_[i]) {
+      for (size_t k = 0; k < rows.size(); ++k) {
+        const Corner& corner = corners_[i][sum.order()[k]];
         // cv::integral has an empty row and column in front.
-        const int* row = integral_[y + corner.dy - reach_.y + 1];
-        inputs.push_back({row + corner.dx - reach_.x + 1, corner.weight});
+        rows[k] = integral_[y + corner.dy - reach_.y + 1] + corner.dx - reach_.x + 1;
       }
-      sumRows({RowKind::k32To32, false}, inputs.data(), inputs.size(), responses[i][y], image.cols);
+      sum.run(rows.data(), responses[i][y], {1, image.cols, 0, 0});
     }
   }
 }

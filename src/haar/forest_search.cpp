@@ -168,7 +168,8 @@ KernelForest directForest(const KernelLattice& lattice, const std::vector<int>& 
   std::vector<size_t> order(lattice.targets().size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    return lattice.kernel(lattice.targets()[a]).size() > lattice.kernel(lattice.targets()[b]).size();
+    return lattice.kernel(lattice.targets()[a]).size() >
+           lattice.kernel(lattice.targets()[b]).size();
   });
   for (const size_t i : order) {
     const int target = lattice.targets()[i];

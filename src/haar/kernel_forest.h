@@ -65,7 +65,7 @@ class KernelForest {
 
   const KernelLattice* lattice_;
   std::vector<int> nodes_;
-  std::vector<int> parents_;       ///< by kernel, as all below
+  std::vector<int> parents_;  ///< by kernel, as all below
   std::vector<cv::Point> shifts_;
   std::vector<int> child_counts_;
   std::vector<int> features_;

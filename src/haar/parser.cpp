@@ -61,7 +61,8 @@ PassTree parse(const FeatureEnsemble& ensemble, const ParserOptions& options) {
     features.push_back(targets.features[i]);
     features.back().node = lattice.targets()[static_cast<size_t>(features.back().node)];
   }
-  KernelForest forest = directForest(lattice, targets.counts, targets.positions, options.share_reads);
+  KernelForest forest =
+      directForest(lattice, targets.counts, targets.positions, options.share_reads);
   if (is_searched) forest = searchForest(lattice, forest, options.search_rounds);
   return forest.tree(features);
 }

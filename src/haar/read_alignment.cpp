@@ -27,9 +27,9 @@ class AlignmentSearch {
         shifts_(supports.size()),
         is_placed_(supports.size(), false),
         steps_left_(max_steps) {
-    const auto largest = std::max_element(
-        supports.begin(), supports.end(),
-        [](const Support& a, const Support& b) { return a.size() < b.size(); });
+    const auto largest =
+        std::max_element(supports.begin(), supports.end(),
+                         [](const Support& a, const Support& b) { return a.size() < b.size(); });
     least_ = static_cast<int>(largest->size());
     place(static_cast<size_t>(largest - supports.begin()), {}, {});
     best_.is_proven = steps_left_ > 0;
@@ -89,9 +89,8 @@ ReadAlignment alignGreedily(const std::vector<Support>& supports) {
   alignment.shifts.resize(supports.size());
   std::vector<size_t> order(supports.size());
   std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    return supports[a].size() > supports[b].size();
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return supports[a].size() > supports[b].size(); });
   ReadSet reads;
   for (const size_t index : order) {
     alignment.shifts[index] = reads.bestPlacement(supports[index]).shift;
@@ -109,8 +108,7 @@ Support supportOf(const SparseKernel& kernel) {
   return support;
 }
 
-ReadSet::Placement ReadSet::bestPlacement(const Support& support,
-                                          std::uint32_t tie_breaker) const {
+ReadSet::Placement ReadSet::bestPlacement(const Support& support, std::uint32_t tie_breaker) const {
   std::unordered_map<std::uint64_t, int> shared;
   int most = 0;
   for (const auto& read : counts_) {

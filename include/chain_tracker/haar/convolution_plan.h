@@ -27,7 +27,7 @@ struct PlanOptions {
   bool share = true;        ///< off: every feature has a tree of its own, and reads are not shared
   bool narrow = true;       ///< off: all sums are taken modulo 2^32
   int max_pixel = 255;      ///< the largest value that a pixel takes, in [1, 255]; 1 for masks
-  int search_rounds = 400;  ///< of the parser's local search, >= 0; see parser.h
+  int search_rounds = 50;  ///< of the parser's local search, >= 0; see parser.h
 };
 
 enum class Lane { k16, k32 };
@@ -46,7 +46,7 @@ struct PlanBuffer {
   int node = 0;  ///< of the tree; 0: the integral image
   Lane lane = Lane::k32;
   bool is_signed = true;  ///< how 16-bit values are read by 32-bit sums
-  int ring_rows = 1;      ///< a power of two
+  int delays = 0;         ///< rows before the current one that are read
   Reach reach;
 };
 
