@@ -21,7 +21,7 @@ constexpr size_t kAlignment = 64;
 /// Responses larger than this are written around the caches [bytes].
 constexpr size_t kStreamedBytes = size_t{24} << 20;
 /// Columns of a strip, unless the caller wants another number.
-constexpr int kStripColumns = 1024;
+constexpr int kStripColumns = 2048;
 
 int roundedUp(int value, int step) { return (value + step - 1) / step * step; }
 

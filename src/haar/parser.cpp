@@ -64,7 +64,16 @@ PassTree parse(const FeatureEnsemble& ensemble, const ParserOptions& options) {
   KernelForest forest =
       directForest(lattice, targets.counts, targets.positions, options.share_reads);
   if (is_searched) forest = searchForest(lattice, forest, options.search_rounds);
-  return forest.tree(features);
+  bool is_proven = false;
+  if (is_searched && options.share_reads &&
+      countForests(lattice, options.exact_trees) <= options.exact_trees) {
+    ExactResult exact = searchAllForests(lattice, targets.counts, forest.cost().accesses);
+    if (exact.better) forest = *exact.better;
+    is_proven = exact.is_proven;
+  }
+  PassTree tree = forest.tree(features);
+  tree.proven_best = is_proven;
+  return tree;
 }
 
 PassTree parseSeparately(const FeatureEnsemble& ensemble, const ParserOptions& options) {

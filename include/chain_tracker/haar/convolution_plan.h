@@ -23,10 +23,10 @@
 namespace chain_tracker::haar {
 
 struct PlanOptions {
-  bool factor = true;       ///< off: every kernel is read from the integral image directly
-  bool share = true;        ///< off: every feature has a tree of its own, and reads are not shared
-  bool narrow = true;       ///< off: all sums are taken modulo 2^32
-  int max_pixel = 255;      ///< the largest value that a pixel takes, in [1, 255]; 1 for masks
+  bool factor = true;      ///< off: every kernel is read from the integral image directly
+  bool share = true;       ///< off: every feature has a tree of its own, and reads are not shared
+  bool narrow = true;      ///< off: all sums are taken modulo 2^32
+  int max_pixel = 255;     ///< the largest value that a pixel takes, in [1, 255]; 1 for masks
   int search_rounds = 50;  ///< of the parser's local search, >= 0; see parser.h
 };
 

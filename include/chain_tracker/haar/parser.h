@@ -2,14 +2,14 @@
 /// From an ensemble to the cheapest ensemble of trees.
 ///
 /// The space. Every kernel is split into factors: 1 - X^n and 1 - Y^n as often as they divide it
-/// without leaving more taps, the longest first, then 1 + X^n and 1 + Y^n; what is left stays whole, or is split into its part
-/// in X and its part in Y if it separates. Where the ensemble also has the factor 1 - X^m and
-/// n = 2m or n = 3m, 1 - X^n is split further into 1 - X^m and the rest; the same in Y. The
-/// products of some of a kernel's factors are its divisors. A tree of the space takes every
-/// feature's kernel from the integral image through divisors, each dividing the next, in any order
-/// of the factors and in any number of passes; a divisor occurs once, so whatever goes through it
-/// shares all passes up to it. Edge kernels of one pass may be shifted against one another in any
-/// way. Cost: pass_tree.h.
+/// without leaving more taps, the longest first, then 1 + X^n and 1 + Y^n; what is left stays
+/// whole, or is split into its part in X and its part in Y if it separates. Where the ensemble also
+/// has the factor 1 - X^m and n = 2m or n = 3m, 1 - X^n is split further into 1 - X^m and the rest;
+/// the same in Y. The products of some of a kernel's factors are its divisors. A tree of the space
+/// takes every feature's kernel from the integral image through divisors, each dividing the next,
+/// in any order of the factors and in any number of passes; a divisor occurs once, so whatever goes
+/// through it shares all passes up to it. Edge kernels of one pass may be shifted against one
+/// another in any way. Cost: pass_tree.h.
 ///
 /// The search. If there are at most `exact_trees` combinations of chains of divisors, all are
 /// looked at, with bounds, each with its best shifts: the tree is then proven to be the best.
@@ -25,10 +25,10 @@
 namespace chain_tracker::haar {
 
 struct ParserOptions {
-  bool factor = true;       ///< off: kernels stay whole
-  bool share_reads = true;  ///< off: every tap of every edge kernel counts as a read
-  int search_rounds = 50;            ///< disturbances of the local search, >= 0
-  std::int64_t exact_trees = 300000;  ///< 0: no exact search
+  bool factor = true;                 ///< off: kernels stay whole
+  bool share_reads = true;            ///< off: every tap of every edge kernel counts as a read
+  int search_rounds = 50;             ///< disturbances of the local search, >= 0
+  std::int64_t exact_trees = 2000;  ///< 0: no exact search
 };
 
 /// Ensembles with more different kernels are not searched but aligned.

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/haar/ensemble_io.h"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include <yaml-cpp/yaml.h>
+
+namespace chain_tracker::haar {
+namespace {
+
+std::string textOfFile(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file || !text) throw std::invalid_argument("ensemble file " + path + " cannot be read");
+  return text.str();
+}
+
+/// One place in a document.
+class Reader {
+ public:
+  Reader(YAML::Node node, std::string source, int line)
+      : node_(std::move(node)), source_(std::move(source)), line_(line) {}
+
+  /// The values of exactly these keys, in this order.
+  std::vector<Reader> values(const std::vector<std::string>& keys) const {
+    if (!node_.IsMap()) refuse("must be a map with the keys " + listOf(keys));
+    std::set<std::string> seen;
+    std::vector<Reader> values(keys.size(), *this);
+    for (const auto& entry : node_) {
+      const Reader key(entry.first, source_, entry.first.Mark().line + 1);
+      const std::string name = key.text("a key");
+      const auto known = std::find(keys.begin(), keys.end(), name);
+      if (known == keys.end()) {
+        key.refuse("unknown key '" + name + "', must be one of " + listOf(keys));
+      }
+      if (!seen.insert(name).second) key.refuse("key '" + name + "' is there twice");
+      values[static_cast<size_t>(known - keys.begin())] = Reader(entry.second, source_, key.line_);
+    }
+    for (const std::string& key : keys) {
+      if (seen.count(key) == 0) refuse("key '" + key + "' is missing");
+    }
+    return values;
+  }
+
+  std::vector<Reader> items(const std::string& kind) const {
+    if (!node_.IsSequence()) refuse("must be a list of " + kind);
+    std::vector<Reader> items;
+    for (const YAML::Node& item : node_) items.emplace_back(item, source_, item.Mark().line + 1);
+    return items;
+  }
+
+  std::string text(const std::string& kind) const { return as<std::string>(kind); }
+  int integer() const { return as<int>("a whole number"); }
+
+  [[noreturn]] void refuse(const std::string& reason) const {
+    throw std::invalid_argument(source_ + ":" + std::to_string(line_) + ": " + reason);
+  }
+
+ private:
+  template <typename Value>
+  Value as(const std::string& kind) const {
+    if (!node_.IsScalar()) refuse("must be " + kind);
+    try {
+      return node_.as<Value>();
+    } catch (const YAML::Exception&) {
+      refuse("'" + node_.Scalar() + "' must be " + kind);
+    }
+  }
+
+  static std::string listOf(const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return list;
+  }
+
+  YAML::Node node_;
+  std::string source_;
+  int line_;
+};
+
+WeightedRectangle readRectangle(const Reader& reader) {
+  const std::vector<Reader> items = reader.items("[x, y, width, height, weight]");
+  if (items.size() != 5) {
+    reader.refuse("has " + std::to_string(items.size()) +
+                  " numbers, must be [x, y, width, height, weight]");
+  }
+  return {items[0].integer(), items[1].integer(), items[2].integer(), items[3].integer(),
+          items[4].integer()};
+}
+
+HaarFeature readFeature(const Reader& reader) {
+  const std::vector<Reader> values = reader.values({"name", "rectangles"});
+  HaarFeature feature;
+  feature.name = values[0].text("text");
+  for (const Reader& item : values[1].items("rectangles")) {
+    feature.rectangles.push_back(readRectangle(item));
+  }
+  const std::string fault = faultOf(feature);
+  if (!fault.empty()) reader.refuse(fault);
+  return feature;
+}
+
+YAML::Node parseDocument(const std::string& yaml, const std::string& source) {
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(yaml);
+    if (documents.size() == 1) return documents.front();
+    throw std::invalid_argument(source + ":1: has " + std::to_string(documents.size()) +
+                                " YAML documents, must be one");
+  } catch (const YAML::ParserException& error) {
+    throw std::invalid_argument(source + ":" + std::to_string(error.mark.line + 1) +
+                                ": not valid YAML: " + error.msg);
+  }
+}
+
+}  // namespace
+
+FeatureEnsemble parseEnsemble(const std::string& yaml, const std::string& source) {
+  const YAML::Node document = parseDocument(yaml, source);
+  const Reader reader(document, source, std::max(1, document.Mark().line + 1));
+  const std::vector<Reader> values = reader.values({"name", "features"});
+  const std::string name = values[0].text("text");
+  std::vector<HaarFeature> features;
+  std::set<std::string> names;
+  for (const Reader& item : values[1].items("features")) {
+    features.push_back(readFeature(item));
+    if (!names.insert(features.back().name).second) {
+      item.refuse("feature '" + features.back().name + "' is there twice");
+    }
+  }
+  if (features.empty()) values[1].refuse("ensemble '" + name + "' has no features");
+  return {name, std::move(features)};
+}
+
+FeatureEnsemble loadEnsemble(const std::string& path) {
+  return parseEnsemble(textOfFile(path), path);
+}
+
+CascadeFeatures loadCascade(const std::string& path) {
+  return parseCascade(textOfFile(path), path);
+}
+
+}  // namespace chain_tracker::haar
