@@ -119,7 +119,8 @@ std::optional<SparseKernel> SparseKernel::dividedBy(const SparseKernel& divisor)
   std::vector<KernelTap> quotient;
   while (!rest.empty()) {
     const auto [place, weight] = *rest.begin();
-    const KernelTap tap{place.first - lead.dy, place.second - lead.dx, weight * lead.weight};
+    if (weight % lead.weight != 0) return std::nullopt;
+    const KernelTap tap{place.first - lead.dy, place.second - lead.dx, weight / lead.weight};
     if (tap.dy > high.y || tap.dx > high.x || tap.dx < low_x) return std::nullopt;
     quotient.push_back(tap);
     for (const KernelTap& d : divisor.taps_) {

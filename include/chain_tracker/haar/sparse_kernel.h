@@ -56,7 +56,7 @@ class SparseKernel {
   SparseKernel operator*(const SparseKernel& other) const;
   SparseKernel operator+(const SparseKernel& other) const;
 
-  /// The quotient by a kernel with first tap +-1 if the division leaves no remainder.
+  /// The quotient by a kernel that is not zero, if it has whole weights and leaves no remainder.
   std::optional<SparseKernel> dividedBy(const SparseKernel& divisor) const;
 
   /// Like 1 + 2 X^3 - X Y^4.
