@@ -7,6 +7,7 @@
 #include <string>
 
 #include "row_sums.h"
+#include "step_sum.h"
 #include "thread_team.h"
 
 namespace chain_tracker::haar {
@@ -15,8 +16,6 @@ namespace {
 /// Elements that may be computed beyond the last one needed, so that vectors are full.
 constexpr int kSlack = 64;
 constexpr int kFullVector = 16;
-/// Rows computed by one step before the next step follows.
-constexpr int kBatchRows = 8;
 constexpr size_t kAlignment = 64;
 /// Responses larger than this are written around the caches [bytes].
 constexpr size_t kStreamedBytes = size_t{24} << 20;
@@ -62,15 +61,6 @@ class RowRing {
   std::uint8_t* first_;
 };
 
-RowKind kindOf(const PlanStep& step, const PlanBuffer& source) {
-  if (step.lane == Lane::k16) {
-    if (step.target >= 0) return RowKind::k16To16;
-    return step.is_signed ? RowKind::k16To32Signed : RowKind::k16To32Unsigned;
-  }
-  if (source.lane == Lane::k32) return RowKind::k32To32;
-  return source.is_signed ? RowKind::kSigned16To32 : RowKind::kUnsigned16To32;
-}
-
 int powerOfTwoFrom(int least) {
   int power = 1;
   while (power < least) power *= 2;
@@ -112,9 +102,8 @@ class TileRunner {
     size_t inputs = 0;
     for (const PlanStep& step : plan.steps()) {
       inputs = std::max(inputs, step.inputs.size());
-      std::vector<std::int32_t> weights;
-      for (const PlanInput& input : step.inputs) weights.push_back(input.weight);
-      sums_.emplace_back(kindOf(step, plan.buffers()[static_cast<size_t>(step.source)]), weights);
+      const PlanBuffer& source = plan.buffers()[static_cast<size_t>(step.source)];
+      sums_.emplace_back(rowKindOf(step, source), weightsOf(step));
     }
     inputs_.resize(inputs);
   }

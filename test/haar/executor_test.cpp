@@ -55,10 +55,14 @@ std::string textOf(const cv::Size& size) {
 
 /// Around the size of a kernel, and awkward ones.
 std::vector<cv::Size> hostileSizes(const cv::Size& kernel) {
-  return {{1, 1},           {1, 9},
-          {9, 1},           {kernel.width - 1, kernel.height - 1},
-          kernel,           {kernel.width + 1, kernel.height + 1},
-          {2, kernel.height}, {67, 31}};
+  return {{1, 1},
+          {1, 9},
+          {9, 1},
+          {kernel.width - 1, kernel.height - 1},
+          kernel,
+          {kernel.width + 1, kernel.height + 1},
+          {2, kernel.height},
+          {67, 31}};
 }
 
 TEST(Executors, equalRectangleSumsForRandomEnsemblesAndEveryPlan) {
@@ -127,9 +131,8 @@ TEST(Executors, equalRectangleSumsForTheFrontalFaceCascade) {
 }
 
 TEST(BufferedExecutor, holdsTheLargestResponses) {
-  const FeatureEnsemble ensemble("large",
-                                 {{"bright", {{0, 0, 11, 11, 65536}, {0, 0, 4, 4, 30000}}},
-                                  {"dark", {{-5, -5, 11, 11, -65536}}}});
+  const FeatureEnsemble ensemble("large", {{"bright", {{0, 0, 11, 11, 65536}, {0, 0, 4, 4, 30000}}},
+                                           {"dark", {{-5, -5, 11, 11, -65536}}}});
   const cv::Mat1b image(40, 50, uchar{255});
   const ConvolutionPlan plan(ensemble);
   EXPECT_EQ("", firstDifference(sumRectangles(image, ensemble), runBuffered(plan, image)));

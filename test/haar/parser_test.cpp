@@ -25,8 +25,9 @@ std::string faultOf(const PassTree& tree, const FeatureEnsemble& ensemble) {
   const std::vector<AlignedKernel> kernels = alignedKernels(ensemble);
   for (size_t i = 0; i < kernels.size(); ++i) {
     const FeatureNode& feature = tree.features[i];
-    const bool same = tree.nodes[static_cast<size_t>(feature.node)].kernel == kernels[i].primitive &&
-                      feature.delay == kernels[i].delay && feature.scale == kernels[i].scale;
+    const bool same =
+        tree.nodes[static_cast<size_t>(feature.node)].kernel == kernels[i].primitive &&
+        feature.delay == kernels[i].delay && feature.scale == kernels[i].scale;
     if (!same) return "feature " + std::to_string(i) + " is another kernel than its node";
   }
   return "";
@@ -75,9 +76,8 @@ TEST(Parser, equalsExhaustiveSearchForSmallEnsembles) {
 }
 
 TEST(Parser, equalsExhaustiveSearchForBoxesThatDoubleInSize) {
-  const FeatureEnsemble boxes("boxes", {{"a", {{0, 0, 2, 2, 1}}},
-                                        {"b", {{0, 0, 4, 4, 1}}},
-                                        {"c", {{0, 0, 2, 4, 1}}}});
+  const FeatureEnsemble boxes(
+      "boxes", {{"a", {{0, 0, 2, 2, 1}}}, {"b", {{0, 0, 4, 4, 1}}}, {"c", {{0, 0, 2, 4, 1}}}});
   const PassTree tree = parse(boxes);
   EXPECT_TRUE(tree.proven_best);
   EXPECT_EQ(exhaustive::fewestAccesses(boxes), tree.accesses());
@@ -91,9 +91,8 @@ TEST(Parser, provesTheTreeOfOneSurfScale) {
 }
 
 TEST(Parser, computesKernelsEqualUpToShiftSignAndScaleOnce) {
-  const FeatureEnsemble copies("copies", {{"a", {{0, 0, 3, 5, 1}}},
-                                          {"b", {{7, -2, 3, 5, -1}}},
-                                          {"c", {{-4, 1, 3, 5, 6}}}});
+  const FeatureEnsemble copies(
+      "copies", {{"a", {{0, 0, 3, 5, 1}}}, {"b", {{7, -2, 3, 5, -1}}}, {"c", {{-4, 1, 3, 5, 6}}}});
   const PassTree tree = parse(copies);
   EXPECT_EQ(2U, tree.nodes.size());
   EXPECT_EQ(4 + 3, tree.accesses());

@@ -32,7 +32,8 @@ size_t smallestUnion(const Places& placed, const std::vector<Places>& rest, size
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     Places shifts;
     for (const Place& to : placed) {
-      for (const Place& from : rest[i]) shifts.emplace(to.first - from.first, to.second - from.second);
+      for (const Place& from : rest[i])
+        shifts.emplace(to.first - from.first, to.second - from.second);
     }
     for (const Place& shift : shifts) {
       Places all = placed;

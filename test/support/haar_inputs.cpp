@@ -34,8 +34,8 @@ haar::FeatureEnsemble randomEnsemble(RandomInputs& random, int features, int rea
   while (static_cast<int>(all.size()) < features) {
     haar::HaarFeature feature;
     if (!all.empty() && random.integer(0, 3) == 0) {
-      feature = alteredCopy(random, all[static_cast<size_t>(
-                                        random.integer(0, static_cast<int>(all.size()) - 1))]);
+      feature = alteredCopy(
+          random, all[static_cast<size_t>(random.integer(0, static_cast<int>(all.size()) - 1))]);
     } else {
       const int rectangles = random.integer(1, 4);
       for (int i = 0; i < rectangles; ++i) {
