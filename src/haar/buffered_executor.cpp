@@ -79,7 +79,7 @@ struct Destination {
 class TileRunner {
  public:
   TileRunner(const ConvolutionPlan& plan, const cv::Size& size, int strip_columns, int band_rows,
-             bool rings)
+             const ExecutorOptions& options)
       : plan_(plan), size_(size) {
     int right = 0;
     int rows = band_rows;
@@ -91,9 +91,9 @@ class TileRunner {
     }
     rows += bottom_ - top_;
     for (const PlanBuffer& buffer : plan.buffers()) {
-      rings_.emplace_back(buffer,
-                          powerOfTwoFrom(rings ? buffer.delays + kBatchRows : rows + kBatchRows),
-                          strip_columns + right - left_);
+      rings_.emplace_back(
+          buffer, powerOfTwoFrom(options.rings ? buffer.delays + kBatchRows : rows + kBatchRows),
+          strip_columns + right - left_);
       if (buffer.node == 0) integrals_.push_back(rings_.size() - 1);
     }
     pixels_.resize(static_cast<size_t>(strip_columns + right - left_ + kSlack));
@@ -103,7 +103,7 @@ class TileRunner {
     for (const PlanStep& step : plan.steps()) {
       inputs = std::max(inputs, step.inputs.size());
       const PlanBuffer& source = plan.buffers()[static_cast<size_t>(step.source)];
-      sums_.emplace_back(rowKindOf(step, source), weightsOf(step));
+      sums_.emplace_back(rowKindOf(step, source), weightsOf(step), options.instructions);
     }
     inputs_.resize(inputs);
   }
@@ -288,7 +288,7 @@ class BufferedExecutor::Implementation {
     strip_columns_ =
         std::min(size.width, options.strip_columns != 0 ? options.strip_columns : kStripColumns);
     for (int i = 0; i < options_.threads; ++i) {
-      runners_.emplace_back(plan, size, strip_columns_, bandOf(i).size(), options_.rings);
+      runners_.emplace_back(plan, size, strip_columns_, bandOf(i).size(), options_);
     }
     team_ = std::make_unique<ThreadTeam>(options_.threads, [this](int member) { work(member); });
   }

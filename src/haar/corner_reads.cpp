@@ -47,7 +47,8 @@ std::vector<cv::Mat1i> sumRectangles(const cv::Mat1b& image, const FeatureEnsemb
   return responses;
 }
 
-CornerReads::CornerReads(const FeatureEnsemble& ensemble) : reach_(0, 0, 1, 1) {
+CornerReads::CornerReads(const FeatureEnsemble& ensemble, InstructionSet instructions)
+    : reach_(0, 0, 1, 1), instructions_(instructions) {
   for (const HaarFeature& feature : ensemble.features()) {
     reach_ |= feature.bounds();
     corners_.emplace_back();
@@ -66,7 +67,7 @@ void CornerReads::run(const cv::Mat1b& image, std::vector<cv::Mat1i>& responses)
   for (size_t i = 0; i < corners_.size(); ++i) {
     std::vector<std::int32_t> weights;
     for (const Corner& corner : corners_[i]) weights.push_back(corner.weight);
-    const RowSum sum(RowKind::k32To32, weights);
+    const RowSum sum(RowKind::k32To32, weights, instructions_);
     std::vector<const void*> rows(weights.size());
     responses[i].create(image.size());
     for (int y = 0; y < image.rows; ++y) {

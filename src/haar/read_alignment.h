@@ -43,6 +43,6 @@ struct ReadAlignment {
 /// Branch and bound from a greedy alignment. In a best alignment every set shares a value with
 /// another, else one could be shifted until it does: so sets are added one by one, each at a shift
 /// at which it meets those there. Gives up the proof after `max_steps`.
-ReadAlignment alignReads(const std::vector<Support>& supports, int max_steps = 4000);
+ReadAlignment alignReads(const std::vector<Support>& supports, int max_steps = 20000);
 
 }  // namespace chain_tracker::haar

@@ -213,9 +213,13 @@ RowSum::Function chooseLoop(RowKind kind, size_t plus, size_t minus, size_t othe
   return chooseLoop<Machine, Kind<U32, U32, S32, S32>>(plus, minus, other);
 }
 
-RowSum::Function chooseLoop(RowKind kind, size_t plus, size_t minus, size_t other) {
+RowSum::Function chooseLoop(RowKind kind, size_t plus, size_t minus, size_t other,
+                            InstructionSet instructions) {
 #ifdef CHAIN_TRACKER_HAS_AVX2
-  if (__builtin_cpu_supports("avx2")) return chooseLoop<Avx2>(kind, plus, minus, other);
+  const bool is_wide = instructions == InstructionSet::kBest && __builtin_cpu_supports("avx2");
+  if (is_wide) return chooseLoop<Avx2>(kind, plus, minus, other);
+#else
+  static_cast<void>(instructions);
 #endif
   return chooseLoop<Portable>(kind, plus, minus, other);
 }
@@ -284,7 +288,8 @@ void integrate(const std::uint8_t* pixels, const Sum* above, Sum* integral, int 
 
 }  // namespace
 
-RowSum::RowSum(RowKind kind, const std::vector<std::int32_t>& weights) : kind_(kind) {
+RowSum::RowSum(RowKind kind, const std::vector<std::int32_t>& weights, InstructionSet instructions)
+    : kind_(kind) {
   const auto rank = [&](size_t i) { return weights[i] == 1 ? 0 : weights[i] == -1 ? 1 : 2; };
   for (const int wanted : {0, 1, 2}) {
     for (size_t i = 0; i < weights.size(); ++i) {
@@ -296,7 +301,7 @@ RowSum::RowSum(RowKind kind, const std::vector<std::int32_t>& weights) : kind_(k
     return static_cast<size_t>(
         std::count_if(order_.begin(), order_.end(), [&](size_t i) { return rank(i) == wanted; }));
   };
-  sum_ = chooseLoop(kind, count(0), count(1), count(2));
+  sum_ = chooseLoop(kind, count(0), count(1), count(2), instructions);
 }
 
 void RowSum::runStreaming(const void* const* sources, std::int32_t* target,

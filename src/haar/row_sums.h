@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "chain_tracker/haar/instruction_set.h"
+
 namespace chain_tracker::haar {
 
 enum class RowKind {
@@ -32,7 +34,8 @@ struct RowBlock {
 /// chosen that multiplies least.
 class RowSum {
  public:
-  RowSum(RowKind kind, const std::vector<std::int32_t>& weights);
+  RowSum(RowKind kind, const std::vector<std::int32_t>& weights,
+         InstructionSet instructions = InstructionSet::kBest);
 
   /// Where each input of run() is among the weights given: first those of weight 1, then -1.
   const std::vector<size_t>& order() const { return order_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Responses of the shipped ensembles, one thread: the buffered executor (Buffered) against corner
-/// reads over cv::integral with the same loops (Corners), against cv::integral and one call of
+/// reads over cv::integral with the same loops (Corners), also where these are compiled with the
+/// package's flags only (PortableCorners), against cv::integral and one call of
 /// cv::filter2D or cv::boxFilter for every rectangle (OpenCv), and against merely writing the
 /// planes (Writes). The arguments are width and height. Counters of Buffered: accesses per pixel,
 /// classic and parsed, and the speed-up over Corners, predicted by the cost model and measured.
@@ -109,6 +110,7 @@ void buffered(benchmark::State& state, const std::string& name) {
   }
   haar::CornerReads classic(plan.ensemble());
   Responses classic_responses;
+  classic.run(image, classic_responses);
   const double classic_seconds = fastestSeconds([&] { classic.run(image, classic_responses); });
   const double seconds = fastestSeconds([&] { executor.run(image, responses); });
   state.counters["classic"] = static_cast<double>(plan.classicAccesses());
@@ -117,15 +119,25 @@ void buffered(benchmark::State& state, const std::string& name) {
   state.counters["measured"] = classic_seconds / seconds;
 }
 
-void cornerReads(benchmark::State& state, const std::string& name) {
+void readCorners(benchmark::State& state, const std::string& name,
+                 haar::InstructionSet instructions) {
   const cv::Mat1b image = noise(sizeOf(state));
   const haar::FeatureEnsemble ensemble = haar::shippedEnsemble(name);
-  haar::CornerReads classic(ensemble);
+  haar::CornerReads classic(ensemble, instructions);
   Responses responses;
+  classic.run(image, responses);
   for (auto unused : state) {
     (void)unused;
     classic.run(image, responses);
   }
+}
+
+void cornerReads(benchmark::State& state, const std::string& name) {
+  readCorners(state, name, haar::InstructionSet::kBest);
+}
+
+void portableCornerReads(benchmark::State& state, const std::string& name) {
+  readCorners(state, name, haar::InstructionSet::kPortable);
 }
 
 void openCvFilters(benchmark::State& state, const std::string& name) {
@@ -143,7 +155,7 @@ void openCvFilters(benchmark::State& state, const std::string& name) {
 
 void writes(benchmark::State& state, const std::string& name) {
   Responses responses(haar::shippedEnsemble(name).size());
-  for (cv::Mat1i& response : responses) response.create(sizeOf(state));
+  for (cv::Mat1i& response : responses) response = cv::Mat1i(sizeOf(state), 0);
   for (auto unused : state) {
     (void)unused;
     for (cv::Mat1i& response : responses) response.setTo(7);
@@ -164,6 +176,7 @@ const bool kRegistered = [] {
   for (const std::string& ensemble : haar::shippedEnsembleNames()) {
     addBenchmark("Buffered", buffered, ensemble);
     addBenchmark("Corners", cornerReads, ensemble);
+    addBenchmark("PortableCorners", portableCornerReads, ensemble);
     addBenchmark("OpenCv", openCvFilters, ensemble);
     addBenchmark("Writes", writes, ensemble);
   }

@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 
 #include "chain_tracker/haar/convolution_plan.h"
+#include "chain_tracker/haar/instruction_set.h"
 
 namespace chain_tracker::haar {
 
@@ -58,6 +59,7 @@ struct ExecutorOptions {
   bool rings = true;      ///< off: buffers keep all rows
   int strip_columns = 0;  ///< columns worked on at a time, >= 16; 0: chosen from the plan
   Streaming streaming = Streaming::kAuto;
+  InstructionSet instructions = InstructionSet::kBest;
 };
 
 class BufferedExecutor {

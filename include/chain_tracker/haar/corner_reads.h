@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "chain_tracker/haar/haar_feature.h"
+#include "chain_tracker/haar/instruction_set.h"
 
 namespace chain_tracker::haar {
 
@@ -19,7 +20,8 @@ std::vector<cv::Mat1i> sumRectangles(const cv::Mat1b& image, const FeatureEnsemb
 /// writes. Keeps its memory from call to call.
 class CornerReads {
  public:
-  explicit CornerReads(const FeatureEnsemble& ensemble);
+  explicit CornerReads(const FeatureEnsemble& ensemble,
+                       InstructionSet instructions = InstructionSet::kBest);
 
   /// `responses` gets one plane of the image's size for each feature. Exact if the responses fit in
   /// 32 bits. O(pixels * corners).
@@ -33,6 +35,7 @@ class CornerReads {
   };
   std::vector<std::vector<Corner>> corners_;  ///< of each feature
   cv::Rect reach_;                            ///< bounds of all features
+  InstructionSet instructions_;
   cv::Mat1b padded_;
   cv::Mat1i integral_;
 };

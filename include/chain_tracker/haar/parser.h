@@ -28,7 +28,7 @@ struct ParserOptions {
   bool factor = true;               ///< off: kernels stay whole
   bool share_reads = true;          ///< off: every tap of every edge kernel counts as a read
   int search_rounds = 50;           ///< disturbances of the local search, >= 0
-  std::int64_t exact_trees = 2000;  ///< 0: no exact search
+  std::int64_t exact_trees = 5000;  ///< 0: no exact search
 };
 
 /// Ensembles with more different kernels are not searched but aligned.
