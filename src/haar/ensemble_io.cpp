@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -29,20 +30,22 @@ class Reader {
   /// The values of exactly these keys, in this order.
   std::vector<Reader> values(const std::vector<std::string>& keys) const {
     if (!node_.IsMap()) refuse("must be a map with the keys " + listOf(keys));
-    std::set<std::string> seen;
-    std::vector<Reader> values(keys.size(), *this);
+    std::map<std::string, Reader> found;
     for (const auto& entry : node_) {
       const Reader key(entry.first, source_, entry.first.Mark().line + 1);
       const std::string name = key.text("a key");
-      const auto known = std::find(keys.begin(), keys.end(), name);
-      if (known == keys.end()) {
+      if (std::find(keys.begin(), keys.end(), name) == keys.end()) {
         key.refuse("unknown key '" + name + "', must be one of " + listOf(keys));
       }
-      if (!seen.insert(name).second) key.refuse("key '" + name + "' is there twice");
-      values[static_cast<size_t>(known - keys.begin())] = Reader(entry.second, source_, key.line_);
+      if (!found.emplace(name, Reader(entry.second, source_, key.line_)).second) {
+        key.refuse("key '" + name + "' is there twice");
+      }
     }
+    std::vector<Reader> values;  // assigning one YAML node to another would change the document
     for (const std::string& key : keys) {
-      if (seen.count(key) == 0) refuse("key '" + key + "' is missing");
+      const auto value = found.find(key);
+      if (value == found.end()) refuse("key '" + key + "' is missing");
+      values.push_back(value->second);
     }
     return values;
   }
