@@ -71,10 +71,11 @@ TEST(EnsembleIo, refusesMalformedYamlWithLineAndReason) {
   EXPECT_EQ("", omissions("name: good\n", "", {"e.yaml:1", "'name' is missing"}));
   EXPECT_EQ("", omissions("name: good", "name: good\nname: again", {"e.yaml:2", "twice"}));
   EXPECT_EQ("", omissions("rectangles:", "rectangles: [", {"e.yaml:", "YAML"}));
-  EXPECT_EQ("", omissionsOf(yamlRefusal(""), {"e.yaml:1", "documents"}));
+  EXPECT_EQ("", omissionsOf(yamlRefusal(""), {"e.yaml:1", "must be a map"}));
   EXPECT_EQ("", omissionsOf(yamlRefusal("name: n\nfeatures: []\n"), {"e.yaml:2", "no features"}));
   EXPECT_EQ("", omissionsOf(yamlRefusal(kGoodYaml + kGoodYaml.substr(kGoodYaml.find("  - "))),
                             {"e.yaml:7", "'edge'", "twice"}));
+  EXPECT_EQ("", omissionsOf(yamlRefusal(kGoodYaml + "---\n" + kGoodYaml), {"e.yaml:7", "second"}));
   EXPECT_EQ("", omissionsOf(refusalOf([] { loadEnsemble("/no/such.yaml"); }), {"/no/such.yaml"}));
 }
 
