@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace chain_tracker::haar {
+
+/// Which instructions the inner loops use; the results are the same.
+enum class InstructionSet {
+  kBest,     ///< the widest that the machine has
+  kPortable  ///< what the package is compiled for
+};
+
+}  // namespace chain_tracker::haar
