@@ -11,6 +11,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "yaml/yaml_document.h"
+
 namespace chain_tracker {
 namespace {
 
@@ -175,24 +177,10 @@ void requireUsable(const ChainModel& model, const std::string& source, const Key
   if (!message.empty()) throw std::invalid_argument(message);
 }
 
-YAML::Node parseDocument(const std::string& yaml, const std::string& source) {
-  try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(yaml);
-    if (documents.size() == 1) return documents.front();
-    const int line = documents.empty() ? 1 : documents[1].Mark().line + 1;
-    throw std::invalid_argument(source + ":" + std::to_string(line) + ": has " +
-                                std::to_string(documents.size()) +
-                                " YAML documents, must be a map of keys in one");
-  } catch (const YAML::ParserException& error) {
-    throw std::invalid_argument(source + ":" + std::to_string(error.mark.line + 1) +
-                                ": not valid YAML: " + error.msg);
-  }
-}
-
 }  // namespace
 
 ChainModel parseChainModel(const std::string& yaml, const std::string& source) {
-  const YAML::Node document = parseDocument(yaml, source);
+  const YAML::Node document = parseYamlDocument(yaml, source);
   ChainModel model;
   KeyLines lines;
   Reader(document, source, "", std::max(1, document.Mark().line + 1), &lines)

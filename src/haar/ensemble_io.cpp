@@ -10,6 +10,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "yaml/yaml_document.h"
+
 namespace chain_tracker::haar {
 namespace {
 
@@ -108,38 +110,10 @@ HaarFeature readFeature(const Reader& reader) {
   return feature;
 }
 
-/// Line at which a second document begins; 0 if there is one at most.
-int lineOfSecondDocument(const std::string& yaml) {
-  std::istringstream lines(yaml);
-  std::string line;
-  bool has_content = false;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    const bool is_separator = line.compare(0, 3, "---") == 0;
-    if (is_separator && has_content) return number;
-    has_content = has_content || is_separator || (!line.empty() && line.front() != '#');
-  }
-  return 0;
-}
-
-/// Not with YAML::LoadAll(), which never returns from some texts that are no YAML.
-YAML::Node parseDocument(const std::string& yaml, const std::string& source) {
-  const int second = lineOfSecondDocument(yaml);
-  if (second > 0) {
-    throw std::invalid_argument(source + ":" + std::to_string(second) +
-                                ": a second YAML document begins, must be one");
-  }
-  try {
-    return YAML::Load(yaml);
-  } catch (const YAML::Exception& error) {
-    throw std::invalid_argument(source + ":" + std::to_string(std::max(0, error.mark.line) + 1) +
-                                ": not valid YAML: " + error.msg);
-  }
-}
-
 }  // namespace
 
 FeatureEnsemble parseEnsemble(const std::string& yaml, const std::string& source) {
-  const YAML::Node document = parseDocument(yaml, source);
+  const YAML::Node document = parseYamlDocument(yaml, source);
   const Reader reader(document, source, std::max(1, document.Mark().line + 1));
   const std::vector<Reader> values = reader.values({"name", "features"});
   const std::string name = values[0].text("text");

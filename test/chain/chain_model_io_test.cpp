@@ -179,7 +179,7 @@ std::vector<BadModel> badModels() {
       {"segments_not_a_list.yaml", 2, {"segments", "must be a list"}},
       {"appearance_not_a_map.yaml", 2, {"appearance", "must be a map"}},
       {"crossed_thresholds.yaml", 4, {"search/found_above", "0.4", "search/lost_below", "0.5"}},
-      {"two_documents.yaml", 4, {"document"}},
+      {"two_documents.yaml", 3, {"second", "document"}},
   };
 }
 
