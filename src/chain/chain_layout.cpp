@@ -267,6 +267,10 @@ std::vector<cv::Point2d> nodesOf(const SegmentLayout& segment) {
 
 ChainLayout layOut(const ChainModel& model, const std::vector<cv::Point2d>& points) {
   requireFinite(points);
+  if (model.segment_per_edge) {  // forPolyline() found no edge
+    refuse("model " + model.name + " was given " + std::to_string(points.size()) +
+           " points, must be a polyline of at least 2");
+  }
   ChainLayout layout;
   if (model.segments.size() == 1) {
     layout.segments = {layOutSegment(model.segments.front(), points)};

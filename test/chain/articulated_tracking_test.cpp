@@ -83,6 +83,17 @@ TEST(LayOutJoined, refusesAWrongNumberOfVertices) {
                             {"points 1 and 2", "(50, 0)"}));
 }
 
+TEST(LayOutJoined, refusesAPolylineWithoutEdges) {
+  ChainModel model;
+  model.name = "insect";
+  model.segment_per_edge = true;
+  for (size_t count : {0U, 1U}) {
+    const std::vector<cv::Point2d> points(count, cv::Point2d(30, 30));
+    const std::string refusal = refusalOf([&] { layOut(forPolyline(model, count), points); });
+    EXPECT_EQ("", omissionsOf(refusal, {"insect", std::to_string(count), "at least 2"}));
+  }
+}
+
 TEST(ObjectShape, ofJoinedSegmentsAnswersForTheirVertices) {
   const std::vector<double> angles = {0.3, 1.2};
   const std::vector<cv::Point2d> vertices = DrawnArm::vertices({100, 60}, angles);

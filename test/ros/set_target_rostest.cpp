@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Nonsense{"UnknownModel", "teapot", {{80, 70}, {80, 170}}, "'teapot'"},
                     Nonsense{"MissingFile", "/nowhere/x.yaml", {{80, 70}, {80, 170}}, "/nowhere"},
                     Nonsense{"NoPoints", "", {}, "0"}, Nonsense{"OnePoint", "", {{80, 70}}, "1"},
-                    Nonsense{"ThreePoints", "", {{80, 70}, {90, 80}, {100, 70}}, "3"},
+                    Nonsense{"ThreePoints", "bottle", {{80, 70}, {90, 80}, {100, 70}}, "3"},
                     Nonsense{"Coincident", "", {{80, 70}, {80, 70}}, "80"},
                     Nonsense{"Outside", "", {{80, 70}, {80, 1170}}, "1170"},
                     Nonsense{"Negative", "", {{-800, 70}, {-800, 170}}, "-8"},
