@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "chain_tracker/image/pixel_geometry.h"
 
@@ -69,14 +70,7 @@ cv::Mat1f raised(const cv::Mat1f& map, float cost) {
 class Matcher {
  public:
   Matcher(const MatchingProblem& problem, ChainSolverWorkspace& workspace)
-      : problem_(problem), workspace_(workspace) {
-    for (size_t m = 0; m < segments(); ++m) {
-      edges_.emplace_back();
-      for (size_t h = 0; h < poses(m); ++h) {
-        edges_[m].push_back(sampleEdges(problem.segments[m], problem.candidates[m], pose(m, h)));
-      }
-    }
-  }
+      : problem_(problem), workspace_(workspace) {}
 
   ChainMatch match() {
     sweepForward();
@@ -92,6 +86,11 @@ class Matcher {
   size_t segments() const { return problem_.segments.size(); }
   size_t poses(size_t m) const { return problem_.poses[m].size(); }
   SegmentPose pose(size_t m, size_t h) const { return problem_.poses[m].at(h); }
+
+  /// Sampled anew in every pass: those of all poses together would leave the caches.
+  std::vector<EdgeStencil> edges(size_t m, size_t h) const {
+    return sampleEdges(problem_.segments[m], problem_.candidates[m], pose(m, h));
+  }
 
   float temporal(size_t m, size_t h) const {
     return static_cast<float>(
@@ -120,15 +119,15 @@ class Matcher {
       if (m > 0) into_.push_back(mergeForward(m - 1));
       ahead_.emplace_back();
       for (size_t h = 0; h < poses(m); ++h) {
-        passForward(m, h);
+        passForward(m, edges(m, h), h);
         ahead_[m].push_back(raised(workspace_.forward.back(), temporal(m, h)));
       }
     }
   }
 
-  void passForward(size_t m, size_t h) {
+  void passForward(size_t m, const std::vector<EdgeStencil>& edges, size_t h) {
     const std::vector<cv::Mat1f> none;
-    forwardPass(costsWith(m, m > 0 ? into_[m - 1] : none, h), edges_[m][h], workspace_);
+    forwardPass(costsWith(m, m > 0 ? into_[m - 1] : none, h), edges, workspace_);
   }
 
   /// The message from segment m to each pose of the next one: the least over its own poses.
@@ -167,11 +166,10 @@ class Matcher {
         std::vector<cv::Mat1f> costs = problem_.candidates[m].costs;
         if (m + 1 < segments()) costs.back() = from_[m][h];
         std::reverse(costs.begin(), costs.end());
-        std::vector<EdgeStencil> edges;
-        for (auto edge = edges_[m][h].rbegin(); edge != edges_[m][h].rend(); ++edge) {
-          edges.push_back(reversed(*edge));
-        }
-        forwardPass(costs, edges, workspace_);
+        std::vector<EdgeStencil> backward = edges(m, h);
+        std::reverse(backward.begin(), backward.end());
+        for (EdgeStencil& edge : backward) edge = reversed(std::move(edge));
+        forwardPass(costs, backward, workspace_);
         behind_[m].push_back(raised(workspace_.forward.back(), temporal(m, h)));
       }
       from_[m - 1] = mergeBackward(m - 1);
@@ -195,10 +193,11 @@ class Matcher {
       const bool last = m + 1 == segments();
       SegmentMatch& segment = match.segments[m];
       segment.pose = last ? bestLast(segment.energies) : bestInto(m, match.segments[m + 1]);
-      passForward(m, segment.pose);
+      const std::vector<EdgeStencil> springs = edges(m, segment.pose);
+      passForward(m, springs, segment.pose);
       const cv::Point end =
           last ? cheapestState(workspace_.forward.back()) : match.segments[m + 1].states.front();
-      segment.states = traceBack(edges_[m][segment.pose], end, workspace_);
+      segment.states = traceBack(springs, end, workspace_);
     }
   }
 
@@ -221,7 +220,6 @@ class Matcher {
 
   const MatchingProblem& problem_;
   ChainSolverWorkspace& workspace_;
-  std::vector<std::vector<std::vector<EdgeStencil>>> edges_;  // [segment][pose][edge]
   PoseMaps ahead_;
   PoseMaps behind_;
   PoseMaps into_;  // messages over the joint before segment m + 1
