@@ -220,7 +220,6 @@ class ChainTracker::Implementation {
                           const std::vector<std::vector<cv::Point2d>>& centers,
                           const std::vector<SegmentPose>& poses, int step, double radius) {
     Search search;
-    size_t first_part = 0;
     for (size_t m = 0; m < segments(); ++m) {
       const SegmentLayout& segment = layout_.segments[m];
       const auto first = centers[m].begin() + (segment.entry ? 1 : 0);
@@ -228,8 +227,7 @@ class ChainTracker::Implementation {
       search.grids.push_back(makeCandidateGrid(parts, sideOf(m, poses[m].scale), step, radius));
       search.candidates.push_back(candidatesOf(segment, search.grids[m], centers[m].back()));
       if (m > 0) search.candidates[m].origins.front() = search.candidates[m - 1].origins.back();
-      computeCosts(image, m, first_part, search);
-      first_part += segment.parts.size();
+      computeCosts(image, m, search);
     }
     return search;
   }
@@ -249,8 +247,9 @@ class ChainTracker::Implementation {
     return candidates;
   }
 
-  void computeCosts(const cv::Mat& image, size_t m, size_t first_part, Search& search) {
+  void computeCosts(const cv::Mat& image, size_t m, Search& search) {
     const SegmentLayout& segment = layout_.segments[m];
+    const auto first_part = static_cast<size_t>(state_.segments[m].first_part);
     std::vector<RootHistogram> colors;
     std::vector<WindowTexture> textures;
     for (size_t k = first_part; k < first_part + segment.parts.size(); ++k) {
@@ -262,7 +261,10 @@ class ChainTracker::Implementation {
     const AppearanceModel& model = model_.appearance;
     computePartCosts(image, appearance_.palette(), colors, search.grids[m], model.weight, costs,
                      cost_workspace_);
-    addTextureCosts(image, textures, search.grids[m], model.haar_weight, costs, texture_workspace_);
+    if (model.haar_weight > 0.0) {
+      addTextureCosts(image, textures, search.grids[m], model.haar_weight, costs,
+                      texture_workspace_);
+    }
     const cv::Mat1f nothing(search.grids[m].states, 0.0F);
     if (segment.entry) costs.insert(costs.begin(), nothing);
     if (segment.exit) costs.push_back(nothing);
