@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "row_integral.h"
 #include "row_sums.h"
 #include "step_sum.h"
 #include "thread_team.h"
@@ -13,59 +14,51 @@
 namespace chain_tracker::haar {
 namespace {
 
-/// Elements that may be computed beyond the last one needed, so that vectors are full.
-constexpr int kSlack = 64;
-constexpr int kFullVector = 16;
+/// Vectors are full: up to so many elements more are computed than needed.
+constexpr int kVector = 16;
 constexpr size_t kAlignment = 64;
-/// Responses larger than this are written around the caches [bytes].
-constexpr size_t kStreamedBytes = size_t{24} << 20;
 /// Columns of a strip, unless the caller wants another number.
 constexpr int kStripColumns = 2048;
 
 int roundedUp(int value, int step) { return (value + step - 1) / step * step; }
-
-/// The part of the responses that one run over the rows computes.
-struct Tile {
-  cv::Range columns;
-  cv::Range rows;
-};
-
-/// The last rows of a buffer. All rings of a tile begin at the same column.
-class RowRing {
- public:
-  RowRing(const PlanBuffer& buffer, int rows, int columns)
-      : element_size_(buffer.lane == Lane::k16 ? 2 : 4),
-        mask_(rows - 1),
-        stride_(static_cast<size_t>(roundedUp(columns + kSlack, kSlack)) * element_size_),
-        memory_(stride_ * static_cast<size_t>(rows) + kAlignment) {
-    const auto address = reinterpret_cast<std::uintptr_t>(memory_.data());
-    first_ = memory_.data() + (kAlignment - address % kAlignment) % kAlignment;
-  }
-
-  /// Element `column` of a row; the rings keep as many rows as were asked for.
-  void* at(int row, int column) {
-    return first_ + static_cast<size_t>(row & mask_) * stride_ +
-           static_cast<size_t>(column) * element_size_;
-  }
-  /// Rows from this one on that lie below one another in memory.
-  int rowsFrom(int row) const { return mask_ + 1 - (row & mask_); }
-  /// Elements from a row to the next.
-  std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(stride_ / element_size_); }
-  size_t bytes() const { return memory_.size(); }
-
- private:
-  size_t element_size_;
-  int mask_;
-  size_t stride_;
-  std::vector<std::uint8_t> memory_;
-  std::uint8_t* first_;
-};
+/// Towards minus infinity.
+int roundedDown(int value, int step) { return value - ((value % step) + step) % step; }
 
 int powerOfTwoFrom(int least) {
   int power = 1;
   while (power < least) power *= 2;
   return power;
 }
+
+/// The last rows of a buffer. Column 0 of all rings is the same column of the image; `margin`
+/// columns before it can be read, but mean nothing.
+class RowRing {
+ public:
+  RowRing(Lane lane, int rows, int columns, int margin)
+      : element_size_(lane == Lane::k16 ? 2 : 4), mask_(powerOfTwoFrom(rows) - 1) {
+    const auto row_bytes = static_cast<size_t>(margin + columns) * element_size_;
+    const size_t stride_bytes = (row_bytes + kAlignment - 1) / kAlignment * kAlignment;
+    stride_ = static_cast<std::ptrdiff_t>(stride_bytes / element_size_);
+    memory_.resize(stride_bytes * (static_cast<size_t>(mask_) + 1) + kAlignment);
+    const auto address = reinterpret_cast<std::uintptr_t>(memory_.data());
+    first_ = memory_.data() + (kAlignment - address % kAlignment) % kAlignment +
+             static_cast<size_t>(margin) * element_size_;
+  }
+
+  void* at(int row, int column) const {
+    return first_ + ((row & mask_) * stride_ + column) * static_cast<std::ptrdiff_t>(element_size_);
+  }
+  RowStore store() const { return {first_, mask_, stride_}; }
+  std::ptrdiff_t stride() const { return stride_; }
+  size_t bytes() const { return memory_.size(); }
+
+ private:
+  size_t element_size_;
+  int mask_;
+  std::ptrdiff_t stride_;
+  std::vector<std::uint8_t> memory_;
+  std::uint8_t* first_;
+};
 
 /// Where responses go.
 struct Destination {
@@ -75,37 +68,43 @@ struct Destination {
   bool streaming = false;
 };
 
-/// Computes tiles; the memory of one thread.
-class TileRunner {
+/// Computes bands of rows; the memory of one thread.
+///
+/// Works on blocks: kBatchRows rows, which begin at a multiple of kBatchRows, and a strip of
+/// columns. As no step reads below or to the right of where it writes, all steps can follow one
+/// another on one block, whose values are then still in the nearest cache.
+class BandRunner {
  public:
-  TileRunner(const ConvolutionPlan& plan, const cv::Size& size, int strip_columns, int band_rows,
+  BandRunner(const ConvolutionPlan& plan, const cv::Size& size, int band_rows,
              const ExecutorOptions& options)
-      : plan_(plan), size_(size) {
+      : plan_(plan), size_(size), instructions_(options.instructions) {
     int right = 0;
-    int rows = band_rows;
+    int margin = 0;
     for (const PlanBuffer& buffer : plan.buffers()) {
       left_ = std::min(left_, buffer.reach.left);
       right = std::max(right, buffer.reach.right);
       top_ = std::min(top_, buffer.reach.top);
       bottom_ = std::max(bottom_, buffer.reach.bottom);
     }
-    rows += bottom_ - top_;
+    columns_ = roundedUp(size.width + right - left_, kVector);
+    for (const PlanStep& step : plan.steps()) {
+      const PlanBuffer& source = plan.buffers()[static_cast<size_t>(step.source)];
+      sums_.emplace_back(rowKindOf(step, source), tapsOf(step), options.instructions);
+      for (const PlanInput& input : step.inputs) margin = std::max(margin, input.dx);
+    }
+    margin = roundedUp(margin, static_cast<int>(kAlignment));
     for (const PlanBuffer& buffer : plan.buffers()) {
-      rings_.emplace_back(
-          buffer, powerOfTwoFrom(options.rings ? buffer.delays + kBatchRows : rows + kBatchRows),
-          strip_columns + right - left_);
+      const int rows = options.rings ? buffer.delays : band_rows + bottom_ - top_;
+      rings_.emplace_back(buffer.lane, roundedUp(rows, kBatchRows) + kBatchRows, columns_, margin);
       if (buffer.node == 0) integrals_.push_back(rings_.size() - 1);
     }
-    pixels_.resize(static_cast<size_t>(strip_columns + right - left_ + kSlack));
-    zeros_.resize(pixels_.size() * sizeof(std::uint32_t));
-    response_.resize(static_cast<size_t>(strip_columns) * kBatchRows);
-    size_t inputs = 0;
-    for (const PlanStep& step : plan.steps()) {
-      inputs = std::max(inputs, step.inputs.size());
-      const PlanBuffer& source = plan.buffers()[static_cast<size_t>(step.source)];
-      sums_.emplace_back(rowKindOf(step, source), weightsOf(step), options.instructions);
-    }
-    inputs_.resize(inputs);
+    const int wanted = options.strip_columns != 0 ? options.strip_columns : kStripColumns;
+    const int strips = std::max(1, columns_ / roundedUp(wanted, kVector));
+    strip_columns_ = roundedUp((columns_ + strips - 1) / strips, 2 * kVector);
+    pixels_.resize(static_cast<size_t>(columns_) * kBatchRows);
+    zeros_.resize(static_cast<size_t>(columns_) * sizeof(std::uint32_t));
+    before_.resize(integrals_.size() * kBatchRows);
+    response_.resize(static_cast<size_t>(strip_columns_ + kVector) * kBatchRows);
   }
 
   size_t bytes() const {
@@ -114,155 +113,140 @@ class TileRunner {
     return bytes;
   }
 
-  void run(const BytePlane& plane, const Tile& tile, const Destination& destination) noexcept {
-    const int first = tile.rows.start + top_;
-    const int last = tile.rows.end + bottom_;
-    for (int start = first; start < last; start += kBatchRows) {
-      const cv::Range batch(start, std::min(last, start + kBatchRows));
-      for (int row = batch.start; row < batch.end; ++row) {
-        integrate(plane, tile, row, row == first);
+  void run(const BytePlane& plane, const cv::Range& band, const Destination& destination) noexcept {
+    const int first = band.start + top_;
+    const int last = band.end + bottom_;
+    for (int start = roundedDown(first, kBatchRows); start < last; start += kBatchRows) {
+      const cv::Range rows(std::max(first, start), std::min(last, start + kBatchRows));
+      std::fill(before_.begin(), before_.end(), 0U);
+      for (int column = 0; column < columns_; column += strip_columns_) {
+        const cv::Range columns(column, std::min(columns_, column + strip_columns_));
+        for (int row = rows.start; row < rows.end; ++row) {
+          integrate(pixelsOf(plane, row, columns.start), row, columns, row == first);
+        }
+        for (size_t i = 0; i < plan_.steps().size(); ++i) {
+          runStep(i, band, {columns, rows}, destination);
+        }
       }
-      for (size_t i = 0; i < plan_.steps().size(); ++i) runStep(i, tile, batch, destination);
     }
   }
 
  private:
-  const PlanBuffer& buffer(size_t index) const { return plan_.buffers()[index]; }
+  /// Columns of the rings and rows.
+  struct Block {
+    cv::Range columns;
+    cv::Range rows;
+  };
 
-  /// Next row of the integral image of the tile: whatever lies above and left of it does not
-  /// change responses.
-  void integrate(const BytePlane& plane, const Tile& tile, int row, bool is_first) noexcept {
-    const std::uint8_t* pixels = pixelsOf(plane, tile, row);
+  const PlanBuffer& buffer(int index) const { return plan_.buffers()[static_cast<size_t>(index)]; }
+  const RowRing& ring(int index) const { return rings_[static_cast<size_t>(index)]; }
+
+  /// The next piece of a row of the integral image of the band: whatever lies above and left of it
+  /// does not change responses.
+  void integrate(const std::uint8_t* pixels, int row, const cv::Range& columns,
+                 bool is_first) noexcept {
     for (size_t i = 0; i < integrals_.size(); ++i) {
-      const size_t index = integrals_[i];
-      RowRing& ring = rings_[index];
-      const Reach& reach = buffer(index).reach;
-      const int begin = reach.left - left_;
-      const int count = roundedUp(tile.columns.size() + reach.right - reach.left, kFullVector);
-      const void* above = is_first ? zeros_.data() : ring.at(row - 1, begin);
-      if (buffer(index).lane == Lane::k32) {
-        integrateRow(pixels + begin, static_cast<const std::uint32_t*>(above),
-                     static_cast<std::uint32_t*>(ring.at(row, begin)), count);
+      const RowRing& integral = rings_[integrals_[i]];
+      const void* above = is_first ? zeros_.data() : integral.at(row - 1, columns.start);
+      void* target = integral.at(row, columns.start);
+      std::uint32_t& before = before_[i * kBatchRows + static_cast<size_t>(row & (kBatchRows - 1))];
+      if (plan_.buffers()[integrals_[i]].lane == Lane::k32) {
+        before = integrateRow(pixels, static_cast<const std::uint32_t*>(above), before,
+                              static_cast<std::uint32_t*>(target), columns.size(), instructions_);
       } else {
-        integrateRow(pixels + begin, static_cast<const std::uint16_t*>(above),
-                     static_cast<std::uint16_t*>(ring.at(row, begin)), count);
+        before = integrateRow(pixels, static_cast<const std::uint16_t*>(above),
+                              static_cast<std::uint16_t>(before),
+                              static_cast<std::uint16_t*>(target), columns.size(), instructions_);
       }
     }
   }
 
-  /// The pixels of a row from the first column of the rings on; zeros outside the image.
-  const std::uint8_t* pixelsOf(const BytePlane& plane, const Tile& tile, int row) noexcept {
-    const int origin = tile.columns.start + left_;
-    const auto length = static_cast<int>(pixels_.size());
+  /// The pixels of a row from a column of the rings on; zeros outside the image.
+  const std::uint8_t* pixelsOf(const BytePlane& plane, int row, int column) noexcept {
     const bool inside = row >= 0 && row < size_.height;
     const std::uint8_t* source = plane.data + row * plane.stride;
-    if (inside && origin >= 0 && origin + length <= size_.width) return source + origin;
-    std::fill(pixels_.begin(), pixels_.end(), std::uint8_t{0});
-    const int begin = std::max(0, origin);
-    const int end = std::min(size_.width, origin + length);
-    if (inside && begin < end) {
-      std::memcpy(pixels_.data() + (begin - origin), source + begin,
-                  static_cast<size_t>(end - begin));
+    if (inside && left_ + column >= 0 && left_ + columns_ <= size_.width) {
+      return source + left_ + column;
     }
-    return pixels_.data();
+    std::uint8_t* pixels =
+        pixels_.data() + static_cast<ptrdiff_t>(row & (kBatchRows - 1)) * columns_;
+    if (column == 0) {
+      std::fill(pixels, pixels + columns_, std::uint8_t{0});
+      if (inside) std::memcpy(pixels - left_, source, static_cast<size_t>(size_.width));
+    }
+    return pixels + column;
   }
 
-  void runStep(size_t index, const Tile& tile, const cv::Range& batch,
+  void runStep(size_t index, const cv::Range& band, const Block& block,
                const Destination& destination) noexcept {
     const PlanStep& step = plan_.steps()[index];
-    cv::Range rows = batch;
+    const int top = step.target >= 0 ? buffer(step.target).reach.top : step.advance.y;
+    const int bottom = step.target >= 0 ? buffer(step.target).reach.bottom : step.advance.y;
+    const cv::Range rows(std::max(block.rows.start, band.start + top),
+                         std::min(block.rows.end, band.end + bottom));
+    if (rows.start >= rows.end) return;
     if (step.target >= 0) {
-      const Reach& reach = buffer(static_cast<size_t>(step.target)).reach;
-      rows.start = std::max(rows.start, tile.rows.start + reach.top);
-      rows.end = std::min(rows.end, tile.rows.end + reach.bottom);
+      writeBuffer(index, {block.columns, rows});
     } else {
-      rows.start = std::max(rows.start, tile.rows.start + step.advance.y);
-      rows.end = std::min(rows.end, tile.rows.end + step.advance.y);
-    }
-    while (rows.start < rows.end) {
-      const int count = std::min(rows.size(), contiguousRows(step, rows.start));
-      if (step.target >= 0) {
-        writeBuffer(index, tile, rows.start, count);
-      } else {
-        writeResponse(index, tile, rows.start, count, destination);
-      }
-      rows.start += count;
+      writeResponse(index, {block.columns, rows}, destination);
     }
   }
 
-  /// Rows that can be summed in one go: until a ring comes round.
-  int contiguousRows(const PlanStep& step, int row) const noexcept {
-    const RowRing& source = rings_[static_cast<size_t>(step.source)];
-    int rows =
-        step.target >= 0 ? rings_[static_cast<size_t>(step.target)].rowsFrom(row) : kBatchRows;
-    for (const PlanInput& input : step.inputs) {
-      rows = std::min(rows, source.rowsFrom(row - input.dy));
-    }
-    return rows;
-  }
-
-  void bindInputs(size_t index, int row, int column) noexcept {
+  void writeBuffer(size_t index, const Block& block) noexcept {
     const PlanStep& step = plan_.steps()[index];
-    const std::vector<size_t>& order = sums_[index].order();
-    RowRing& source = rings_[static_cast<size_t>(step.source)];
-    for (size_t i = 0; i < order.size(); ++i) {
-      const PlanInput& input = step.inputs[order[i]];
-      inputs_[i] = source.at(row - input.dy, column - input.dx);
-    }
+    const RowRing& target = ring(step.target);
+    sums_[index].run(ring(step.source).store(), target.at(block.rows.start, block.columns.start),
+                     {block.rows.start, block.columns.start, block.rows.size(),
+                      block.columns.size(), target.stride()});
   }
 
-  void writeBuffer(size_t index, const Tile& tile, int row, int rows) noexcept {
+  /// Responses are written up to a multiple of kVector columns, the last strip's up to the end.
+  void writeResponse(size_t index, const Block& block, const Destination& destination) noexcept {
     const PlanStep& step = plan_.steps()[index];
-    const Reach& reach = buffer(static_cast<size_t>(step.target)).reach;
-    RowRing& target = rings_[static_cast<size_t>(step.target)];
-    const int begin = reach.left - left_;
-    const int columns = roundedUp(tile.columns.size() + reach.right - reach.left, kFullVector);
-    bindInputs(index, row, begin);
-    sums_[index].run(
-        inputs_.data(), target.at(row, begin),
-        {rows, columns, rings_[static_cast<size_t>(step.source)].stride(), target.stride()});
-  }
-
-  void writeResponse(size_t index, const Tile& tile, int row, int rows,
-                     const Destination& destination) noexcept {
-    const PlanStep& step = plan_.steps()[index];
-    const int image_row = row - step.advance.y;
-    RowBlock block{rows, tile.columns.size(), rings_[static_cast<size_t>(step.source)].stride(),
-                   tile.columns.size()};
-    bindInputs(index, row, step.advance.x - left_);
+    const int shift = step.advance.x - left_;
+    const int first = std::max(0, roundedDown(block.columns.start - shift, kVector));
+    const int end = block.columns.end == columns_
+                        ? size_.width
+                        : std::min(size_.width, roundedDown(block.columns.end - shift, kVector));
+    if (first >= end) return;
+    const int image_row = block.rows.start - step.advance.y;
+    RowBlock sums{block.rows.start, first + shift, block.rows.size(), end - first, end - first};
+    const RowStore source = ring(step.source).store();
     if (destination.consumer != nullptr) {
-      sums_[index].run(inputs_.data(), response_.data(), block);
-      for (int i = 0; i < rows; ++i) {
-        destination.consumer->consume({destination.plane, step.feature, image_row + i,
-                                       tile.columns.start, block.columns,
-                                       response_.data() + i * block.columns});
+      sums_[index].run(source, response_.data(), sums);
+      for (int i = 0; i < sums.rows; ++i) {
+        destination.consumer->consume({destination.plane, step.feature, image_row + i, first,
+                                       sums.columns, response_.data() + i * sums.columns});
       }
       return;
     }
     const ResponsePlane& response = destination.planes[step.feature];
-    block.target_stride = response.stride;
-    std::int32_t* target = response.data + image_row * response.stride + tile.columns.start;
+    sums.target_stride = response.stride;
+    std::int32_t* target = response.data + image_row * response.stride + first;
     const bool aligned =
         reinterpret_cast<std::uintptr_t>(target) % 16 == 0 && response.stride % 4 == 0;
     if (destination.streaming && aligned) {
-      sums_[index].runStreaming(inputs_.data(), target, block);
+      sums_[index].runStreaming(source, target, sums);
     } else {
-      sums_[index].run(inputs_.data(), target, block);
+      sums_[index].run(source, target, sums);
     }
   }
 
   const ConvolutionPlan& plan_;
   cv::Size size_;
+  InstructionSet instructions_;
   int left_ = 0;
   int top_ = 0;
   int bottom_ = 0;
+  int columns_ = 0;  ///< of the rings
+  int strip_columns_ = 0;
   std::vector<RowRing> rings_;
-  std::vector<size_t> integrals_;  ///< buffers of the integral image
-  std::vector<RowSum> sums_;       ///< of the steps
-  std::vector<std::uint8_t> pixels_;
+  std::vector<size_t> integrals_;     ///< buffers of the integral image
+  std::vector<RowSum> sums_;          ///< of the steps
+  std::vector<std::uint8_t> pixels_;  ///< of the rows of a batch
   std::vector<std::uint8_t> zeros_;
+  std::vector<std::uint32_t> before_;  ///< of each integral image and row: sum left of the strip
   std::vector<std::int32_t> response_;
-  std::vector<const void*> inputs_;
 };
 
 void requireUsable(const cv::Size& size, const ExecutorOptions& options) {
@@ -271,9 +255,9 @@ void requireUsable(const cv::Size& size, const ExecutorOptions& options) {
     throw std::invalid_argument("threads is " + std::to_string(options.threads) +
                                 ", must be at least 1");
   }
-  if (options.strip_columns != 0 && options.strip_columns < kFullVector) {
+  if (options.strip_columns != 0 && options.strip_columns < kVector) {
     throw std::invalid_argument("strip_columns is " + std::to_string(options.strip_columns) +
-                                ", must be 0 or at least " + std::to_string(kFullVector));
+                                ", must be 0 or at least " + std::to_string(kVector));
   }
 }
 
@@ -285,10 +269,8 @@ class BufferedExecutor::Implementation {
       : features_(plan.ensemble().size()), size_(size), options_(options) {
     requireUsable(size, options);
     options_.threads = std::min(options.threads, size.height);
-    strip_columns_ =
-        std::min(size.width, options.strip_columns != 0 ? options.strip_columns : kStripColumns);
     for (int i = 0; i < options_.threads; ++i) {
-      runners_.emplace_back(plan, size, strip_columns_, bandOf(i).size(), options_);
+      runners_.emplace_back(plan, size, bandOf(i).size(), options_);
     }
     team_ = std::make_unique<ThreadTeam>(options_.threads, [this](int member) { work(member); });
   }
@@ -297,7 +279,7 @@ class BufferedExecutor::Implementation {
   size_t features() const { return features_; }
   size_t workspaceBytes() const {
     size_t bytes = 0;
-    for (const TileRunner& runner : runners_) bytes += runner.bytes();
+    for (const BandRunner& runner : runners_) bytes += runner.bytes();
     return bytes;
   }
 
@@ -320,9 +302,7 @@ class BufferedExecutor::Implementation {
 
   bool isStreaming() const {
     if (options_.streaming != Streaming::kAuto) return options_.streaming == Streaming::kAlways;
-    return static_cast<size_t>(size_.area()) * features_ * static_cast<size_t>(plane_count_) *
-               sizeof(std::int32_t) >
-           kStreamedBytes;
+    return areStreamed(size_, features_ * static_cast<size_t>(plane_count_));
   }
 
   void work(int member) {
@@ -333,19 +313,14 @@ class BufferedExecutor::Implementation {
       destination.consumer = consumer_;
       destination.plane = plane;
       destination.streaming = isStreaming();
-      for (int column = 0; column < size_.width; column += strip_columns_) {
-        const int end = std::min(size_.width, column + strip_columns_);
-        runners_[static_cast<size_t>(member)].run(planes_[plane], {{column, end}, bandOf(member)},
-                                                  destination);
-      }
+      runners_[static_cast<size_t>(member)].run(planes_[plane], bandOf(member), destination);
     }
   }
 
   size_t features_;
   cv::Size size_;
   ExecutorOptions options_;
-  int strip_columns_ = 0;
-  std::vector<TileRunner> runners_;
+  std::vector<BandRunner> runners_;
   const BytePlane* planes_ = nullptr;
   int plane_count_ = 0;
   const ResponsePlane* responses_ = nullptr;

@@ -6,20 +6,17 @@
 #include <stdexcept>
 
 #include "chain_tracker/haar/parser.h"
+#include "narrowing.h"
 
 namespace chain_tracker::haar {
 namespace {
 
 constexpr std::int64_t kLeast16 = std::numeric_limits<std::int16_t>::min();
 constexpr std::int64_t kLargest16 = std::numeric_limits<std::int16_t>::max();
-constexpr std::int64_t kLargestUnsigned16 = std::numeric_limits<std::uint16_t>::max();
 constexpr std::int64_t kLeast32 = std::numeric_limits<std::int32_t>::min();
 constexpr std::int64_t kLargest32 = std::numeric_limits<std::int32_t>::max();
 
 bool fitsSigned16(const ValueRange& range) { return range.within(kLeast16, kLargest16); }
-bool fits16(const ValueRange& range) {
-  return fitsSigned16(range) || range.within(0, kLargestUnsigned16);
-}
 
 PassTree treeOf(const FeatureEnsemble& ensemble, const PlanOptions& options) {
   ParserOptions parser;
@@ -130,8 +127,12 @@ ConvolutionPlan::ConvolutionPlan(FeatureEnsemble ensemble, PassTree tree,
     : ensemble_(std::move(ensemble)),
       options_(options),
       tree_(std::move(tree)),
-      classic_accesses_(haar::classicAccesses(ensemble_)) {
+      classic_accesses_(haar::classicAccesses(ensemble_)),
+      parsed_accesses_(tree_.accesses()) {
   proveRanges();
+  if (options_.narrow && options_.factor && ensemble_.size() <= kMaxSearched) {
+    tree_ = narrowedTree(tree_, ranges_, options_.max_pixel);
+  }
   makeSteps();
   measureReach();
 }

@@ -48,36 +48,31 @@ std::vector<cv::Mat1i> sumRectangles(const cv::Mat1b& image, const FeatureEnsemb
 }
 
 CornerReads::CornerReads(const FeatureEnsemble& ensemble, InstructionSet instructions)
-    : reach_(0, 0, 1, 1), instructions_(instructions) {
+    : reach_(0, 0, 1, 1) {
   for (const HaarFeature& feature : ensemble.features()) {
     reach_ |= feature.bounds();
-    corners_.emplace_back();
+    std::vector<RowTap> taps;
     const SparseKernel kernel = doubleDifference(feature);
     for (const KernelTap& tap : kernel.taps()) {
-      corners_.back().push_back({-tap.dx, -tap.dy, static_cast<int>(tap.weight)});
+      taps.push_back({tap.dx, tap.dy, static_cast<std::int32_t>(tap.weight)});
     }
+    sums_.emplace_back(RowKind::k32To32, taps, instructions);
   }
 }
+CornerReads::~CornerReads() = default;
 
 void CornerReads::run(const cv::Mat1b& image, std::vector<cv::Mat1i>& responses) {
   cv::copyMakeBorder(image, padded_, -reach_.y, reach_.br().y - 1, -reach_.x, reach_.br().x - 1,
                      cv::BORDER_CONSTANT, 0);
   cv::integral(padded_, integral_, CV_32S);
-  responses.resize(corners_.size());
-  for (size_t i = 0; i < corners_.size(); ++i) {
-    std::vector<std::int32_t> weights;
-    for (const Corner& corner : corners_[i]) weights.push_back(corner.weight);
-    const RowSum sum(RowKind::k32To32, weights, instructions_);
-    std::vector<const void*> rows(weights.size());
+  // cv::integral has an empty row and column in front.
+  const RowStore store{integral_.ptr<std::int32_t>(1 - reach_.y) + 1 - reach_.x, -1,
+                       static_cast<std::ptrdiff_t>(integral_.step1())};
+  responses.resize(sums_.size());
+  for (size_t i = 0; i < sums_.size(); ++i) {
     responses[i].create(image.size());
-    for (int y = 0; y < image.rows; ++y) {
-      for (size_t k = 0; k < rows.size(); ++k) {
-        const Corner& corner = corners_[i][sum.order()[k]];
-        // cv::integral has an empty row and column in front.
-        rows[k] = integral_[y + corner.dy - reach_.y + 1] + corner.dx - reach_.x + 1;
-      }
-      sum.run(rows.data(), responses[i][y], {1, image.cols, 0, 0});
-    }
+    sums_[i].run(store, responses[i].ptr(),
+                 {0, 0, image.rows, image.cols, static_cast<std::ptrdiff_t>(responses[i].step1())});
   }
 }
 

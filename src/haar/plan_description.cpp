@@ -40,9 +40,12 @@ void describeNode(const ConvolutionPlan& plan, size_t node, const std::string& i
 std::string ConvolutionPlan::describe() const {
   std::ostringstream out;
   out << "ensemble " << ensemble_.name() << ": " << ensemble_.size() << " features\n"
-      << "accesses per pixel: classic " << classicAccesses() << ", parsed " << accesses() << " ("
-      << tree_.reads() << " reads, " << tree_.writes() << " writes), "
-      << (tree_.proven_best ? "proven to be the fewest" : "the fewest found") << "\n";
+      << "accesses per pixel: classic " << classicAccesses() << ", parsed " << parsedAccesses()
+      << ", " << (tree_.proven_best ? "proven to be the fewest" : "the fewest found") << "\n"
+      << "run with " << accesses() << " (" << tree_.reads() << " reads, " << tree_.writes()
+      << " writes)"
+      << (accesses() == parsedAccesses() ? "" : ", more of which have 16 bits instead of 32")
+      << ":\n";
   describeNode(*this, 0, "", out);
   out << "rows needed below a response: " << lookahead()
       << "; pixels outside the image count as 0\n";

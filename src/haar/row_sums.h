@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// The inner loops of the front end: weighted sums of rows, and running sums along a row.
+/// The inner loops of the front end: weighted sums of shifted rows.
 #pragma once
 
 #include <cstddef>
@@ -19,49 +19,53 @@ enum class RowKind {
   k32To32           ///< 32-bit rows, summed modulo 2^32, to a 32-bit row
 };
 
-/// Most rows in one sum: the corners of kMaxRectangles rectangles.
-constexpr size_t kMaxTaps = 256;
-
-/// A block of rows that are summed in one go. Strides count elements of the rows.
-struct RowBlock {
-  int rows = 0;
-  int columns = 0;
-  std::ptrdiff_t source_stride = 0;
-  std::ptrdiff_t target_stride = 0;
+/// Rows in memory, of which perhaps only the last ones are kept: element x of row r is
+/// first[(r & mask) * stride + x].
+struct RowStore {
+  const void* first = nullptr;
+  int mask = -1;
+  std::ptrdiff_t stride = 0;  ///< in elements
 };
 
-/// target[x] = sum of weight * row[x] with weights known beforehand, so that the loop can be
-/// chosen that multiplies least.
+struct RowTap {
+  int dx = 0;
+  int dy = 0;
+  std::int32_t weight = 0;
+};
+
+/// Where a block of sums begins, how large it is, and how far apart its target's rows are.
+struct RowBlock {
+  int row = 0;
+  int column = 0;
+  int rows = 0;
+  int columns = 0;
+  std::ptrdiff_t target_stride = 0;  ///< in elements
+};
+
+/// target(x, y) = sum of weight * source(column + x - dx, row + y - dy), with weights known
+/// beforehand, so that the loop can be chosen that multiplies least.
 class RowSum {
  public:
-  RowSum(RowKind kind, const std::vector<std::int32_t>& weights,
+  RowSum(RowKind kind, const std::vector<RowTap>& taps,
          InstructionSet instructions = InstructionSet::kBest);
 
-  /// Where each input of run() is among the weights given: first those of weight 1, then -1.
-  const std::vector<size_t>& order() const { return order_; }
-
-  /// `sources`: the first row of a block for each weight, in that order. The target is no source.
-  void run(const void* const* sources, void* target, const RowBlock& block) const {
-    sum_(sources, weights_.data(), weights_.size(), target, block);
+  /// The target must not overlap with what is read. O(taps * rows * columns).
+  void run(const RowStore& source, void* target, const RowBlock& block) const {
+    sum_(taps_.data(), taps_.size(), source, target, block);
   }
 
   /// The same, writing around the caches, to 32-bit rows aligned to 16 bytes.
-  void runStreaming(const void* const* sources, std::int32_t* target, const RowBlock& block) const;
+  void runStreaming(const RowStore& source, std::int32_t* target, const RowBlock& block) const {
+    streaming_sum_(taps_.data(), taps_.size(), source, target, block);
+  }
 
-  using Function = void (*)(const void* const* sources, const std::int32_t* weights, size_t taps,
-                            void* target, const RowBlock& block);
+  using Function = void (*)(const RowTap* taps, size_t count, const RowStore& source, void* target,
+                            const RowBlock& block);
 
  private:
-  RowKind kind_;
-  std::vector<size_t> order_;
-  std::vector<std::int32_t> weights_;
+  std::vector<RowTap> taps_;
   Function sum_;
+  Function streaming_sum_;
 };
-
-/// integral[x] = above[x] + pixels[0] + .. + pixels[x] modulo the element's size.
-void integrateRow(const std::uint8_t* pixels, const std::uint16_t* above, std::uint16_t* integral,
-                  int count);
-void integrateRow(const std::uint8_t* pixels, const std::uint32_t* above, std::uint32_t* integral,
-                  int count);
 
 }  // namespace chain_tracker::haar

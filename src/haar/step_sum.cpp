@@ -2,6 +2,16 @@
 #include "step_sum.h"
 
 namespace chain_tracker::haar {
+namespace {
+
+/// More than the nearest caches hold [bytes].
+constexpr size_t kStreamedBytes = size_t{8} << 20;
+
+}  // namespace
+
+bool areStreamed(const cv::Size& size, size_t planes) {
+  return static_cast<size_t>(size.area()) * planes * sizeof(std::int32_t) > kStreamedBytes;
+}
 
 RowKind rowKindOf(const PlanStep& step, const PlanBuffer& source) {
   if (step.lane == Lane::k16) {
@@ -12,10 +22,10 @@ RowKind rowKindOf(const PlanStep& step, const PlanBuffer& source) {
   return source.is_signed ? RowKind::kSigned16To32 : RowKind::kUnsigned16To32;
 }
 
-std::vector<std::int32_t> weightsOf(const PlanStep& step) {
-  std::vector<std::int32_t> weights;
-  for (const PlanInput& input : step.inputs) weights.push_back(input.weight);
-  return weights;
+std::vector<RowTap> tapsOf(const PlanStep& step) {
+  std::vector<RowTap> taps;
+  for (const PlanInput& input : step.inputs) taps.push_back({input.dx, input.dy, input.weight});
+  return taps;
 }
 
 }  // namespace chain_tracker::haar

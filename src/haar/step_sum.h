@@ -12,7 +12,10 @@ namespace chain_tracker::haar {
 /// Rows computed by one step before the next step follows.
 constexpr int kBatchRows = 8;
 
+/// Whether so many planes of 32-bit responses are written around the caches.
+bool areStreamed(const cv::Size& size, size_t planes);
+
 RowKind rowKindOf(const PlanStep& step, const PlanBuffer& source);
-std::vector<std::int32_t> weightsOf(const PlanStep& step);
+std::vector<RowTap> tapsOf(const PlanStep& step);
 
 }  // namespace chain_tracker::haar

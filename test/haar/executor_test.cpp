@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "chain_tracker/haar/buffered_executor.h"
 #include "chain_tracker/haar/corner_reads.h"
@@ -104,6 +105,25 @@ TEST(Executors, equalRectangleSumsForShippedEnsemblesOnHostileSizes) {
   }
 }
 
+TEST(Executors, equalCornerReadsForEveryShippedEnsembleOnHostileSizes) {
+  RandomInputs random(9);
+  for (const std::string& name : shippedEnsembleNames()) {
+    const FeatureEnsemble ensemble = shippedEnsemble(name);
+    PlanOptions options;
+    options.search_rounds = 2;
+    const ConvolutionPlan plan(ensemble, options);
+    cv::Rect bounds;
+    for (const HaarFeature& feature : ensemble.features()) bounds |= feature.bounds();
+    for (const cv::Size& size : hostileSizes(bounds.size())) {
+      SCOPED_TRACE(name + ", " + textOf(size));
+      const cv::Mat1b image = random.noise(size, CV_8UC1);
+      std::vector<cv::Mat1i> expected;
+      CornerReads(ensemble).run(image, expected);
+      EXPECT_EQ("", firstDifference(expected, runBuffered(plan, image)));
+    }
+  }
+}
+
 TEST(Executors, equalCornerReadsForEveryShippedEnsembleOnALargeImage) {
   RandomInputs random(3);
   const cv::Mat1b image = random.noise({533, 401}, CV_8UC1);
@@ -156,6 +176,53 @@ TEST(BufferedExecutor, computesSeveralPlanesAtOnce) {
   std::vector<cv::Mat1i> responses;
   BufferedExecutor(plan, {61, 43}).run(planes, responses);
   EXPECT_EQ("", firstDifference(expected, responses));
+}
+
+/// Compares every response with the corners of its feature in the integral image, at once.
+class CornerComparison : public ResponseConsumer {
+ public:
+  CornerComparison(const FeatureEnsemble& ensemble, const cv::Mat1b& image) {
+    for (const HaarFeature& feature : ensemble.features()) {
+      kernels_.push_back(doubleDifference(feature));
+    }
+    cv::Mat1b padded;
+    cv::copyMakeBorder(image, padded, kBorder, kBorder, kBorder, kBorder, cv::BORDER_CONSTANT, 0);
+    cv::integral(padded, integral_, CV_32S);
+  }
+  void consume(const ResponseRow& row) noexcept override {
+    for (int i = 0; i < row.count; ++i) {
+      int response = 0;
+      for (const KernelTap& tap : kernels_[static_cast<size_t>(row.feature)].taps()) {
+        response += static_cast<int>(tap.weight) * integral_(row.row - tap.dy + kBorder + 1,
+                                                             row.column + i - tap.dx + kBorder + 1);
+      }
+      if (response != row.values[i]) ++differences_;
+      ++compared_;
+    }
+  }
+  std::int64_t differences() const { return differences_; }
+  std::int64_t compared() const { return compared_; }
+
+ private:
+  static constexpr int kBorder = 32;
+  std::vector<SparseKernel> kernels_;
+  cv::Mat1i integral_;
+  std::int64_t differences_ = 0;
+  std::int64_t compared_ = 0;
+};
+
+TEST(BufferedExecutor, equalsCornersOfTheFrontalFaceCascadeOnALargeImage) {
+  if (cascadeFolder().empty()) GTEST_SKIP() << "the package opencv-data is not installed";
+  const FeatureEnsemble ensemble =
+      loadCascade(cascadeFolder() + "/haarcascade_frontalface_default.xml").upright;
+  RandomInputs random(10);
+  const cv::Mat1b image = random.noise({533, 401}, CV_8UC1);
+  const BytePlane plane{image.ptr(), static_cast<std::ptrdiff_t>(image.step1())};
+  CornerComparison comparison(ensemble, image);
+  const ConvolutionPlan plan(ensemble);
+  BufferedExecutor(plan, image.size()).run(&plane, 1, comparison);
+  EXPECT_EQ(static_cast<std::int64_t>(image.total() * ensemble.size()), comparison.compared());
+  EXPECT_EQ(0, comparison.differences());
 }
 
 class Collector : public ResponseConsumer {

@@ -11,6 +11,8 @@
 
 namespace chain_tracker::haar {
 
+class RowSum;
+
 /// The definition in haar_feature.h, pixel by pixel and rectangle by rectangle, in 64 bits: the
 /// slow twin of everything else. O(pixels * sum of areas). Responses that do not fit in 32 bits
 /// throw std::overflow_error.
@@ -22,20 +24,15 @@ class CornerReads {
  public:
   explicit CornerReads(const FeatureEnsemble& ensemble,
                        InstructionSet instructions = InstructionSet::kBest);
+  ~CornerReads();
 
   /// `responses` gets one plane of the image's size for each feature. Exact if the responses fit in
   /// 32 bits. O(pixels * corners).
   void run(const cv::Mat1b& image, std::vector<cv::Mat1i>& responses);
 
  private:
-  struct Corner {
-    int dx;
-    int dy;
-    int weight;
-  };
-  std::vector<std::vector<Corner>> corners_;  ///< of each feature
-  cv::Rect reach_;                            ///< bounds of all features
-  InstructionSet instructions_;
+  std::vector<RowSum> sums_;  ///< of the features
+  cv::Rect reach_;            ///< bounds of all features
   cv::Mat1b padded_;
   cv::Mat1i integral_;
 };
