@@ -75,18 +75,19 @@ struct Destination {
 /// another on one block, whose values are then still in the nearest cache.
 class BandRunner {
  public:
-  BandRunner(const ConvolutionPlan& plan, const cv::Size& size, int band_rows,
+  BandRunner(const ConvolutionPlan& plan, const cv::Size& capacity, int band_rows,
              const ExecutorOptions& options)
-      : plan_(plan), size_(size), instructions_(options.instructions) {
-    int right = 0;
+      : plan_(plan),
+        instructions_(options.instructions),
+        wanted_columns_(options.strip_columns != 0 ? options.strip_columns : kStripColumns) {
     int margin = 0;
     for (const PlanBuffer& buffer : plan.buffers()) {
       left_ = std::min(left_, buffer.reach.left);
-      right = std::max(right, buffer.reach.right);
+      right_ = std::max(right_, buffer.reach.right);
       top_ = std::min(top_, buffer.reach.top);
       bottom_ = std::max(bottom_, buffer.reach.bottom);
     }
-    columns_ = roundedUp(size.width + right - left_, kVector);
+    setSize(capacity);
     for (const PlanStep& step : plan.steps()) {
       const PlanBuffer& source = plan.buffers()[static_cast<size_t>(step.source)];
       sums_.emplace_back(rowKindOf(step, source), tapsOf(step), options.instructions);
@@ -98,13 +99,18 @@ class BandRunner {
       rings_.emplace_back(buffer.lane, roundedUp(rows, kBatchRows) + kBatchRows, columns_, margin);
       if (buffer.node == 0) integrals_.push_back(rings_.size() - 1);
     }
-    const int wanted = options.strip_columns != 0 ? options.strip_columns : kStripColumns;
-    const int strips = std::max(1, columns_ / roundedUp(wanted, kVector));
-    strip_columns_ = roundedUp((columns_ + strips - 1) / strips, 2 * kVector);
     pixels_.resize(static_cast<size_t>(columns_) * kBatchRows);
     zeros_.resize(static_cast<size_t>(columns_) * sizeof(std::uint32_t));
     before_.resize(integrals_.size() * kBatchRows);
-    response_.resize(static_cast<size_t>(strip_columns_ + kVector) * kBatchRows);
+    response_.resize(static_cast<size_t>(columns_) * kBatchRows);
+  }
+
+  /// Of the image and the responses: no more than the capacity.
+  void setSize(const cv::Size& size) {
+    size_ = size;
+    columns_ = roundedUp(size.width + right_ - left_, kVector);
+    const int strips = std::max(1, columns_ / roundedUp(wanted_columns_, kVector));
+    strip_columns_ = roundedUp((columns_ + strips - 1) / strips, 2 * kVector);
   }
 
   size_t bytes() const {
@@ -114,6 +120,7 @@ class BandRunner {
   }
 
   void run(const BytePlane& plane, const cv::Range& band, const Destination& destination) noexcept {
+    if (band.empty()) return;
     const int first = band.start + top_;
     const int last = band.end + bottom_;
     for (int start = roundedDown(first, kBatchRows); start < last; start += kBatchRows) {
@@ -236,9 +243,11 @@ class BandRunner {
   cv::Size size_;
   InstructionSet instructions_;
   int left_ = 0;
+  int right_ = 0;
   int top_ = 0;
   int bottom_ = 0;
-  int columns_ = 0;  ///< of the rings
+  int columns_ = 0;     ///< of the rings
+  int wanted_columns_;  ///< of a strip
   int strip_columns_ = 0;
   std::vector<RowRing> rings_;
   std::vector<size_t> integrals_;     ///< buffers of the integral image
@@ -248,6 +257,10 @@ class BandRunner {
   std::vector<std::uint32_t> before_;  ///< of each integral image and row: sum left of the strip
   std::vector<std::int32_t> response_;
 };
+
+std::string textOf(const cv::Size& size) {
+  return std::to_string(size.width) + " x " + std::to_string(size.height);
+}
 
 void requireUsable(const cv::Size& size, const ExecutorOptions& options) {
   if (size.width < 1 || size.height < 1) throw std::invalid_argument("the image is empty");
@@ -265,14 +278,26 @@ void requireUsable(const cv::Size& size, const ExecutorOptions& options) {
 
 class BufferedExecutor::Implementation {
  public:
-  Implementation(const ConvolutionPlan& plan, const cv::Size& size, const ExecutorOptions& options)
-      : features_(plan.ensemble().size()), size_(size), options_(options) {
-    requireUsable(size, options);
-    options_.threads = std::min(options.threads, size.height);
+  Implementation(const ConvolutionPlan& plan, const cv::Size& capacity,
+                 const ExecutorOptions& options)
+      : features_(plan.ensemble().size()), capacity_(capacity), size_(capacity), options_(options) {
+    requireUsable(capacity, options);
+    options_.threads = std::min(options.threads, capacity.height);
+    const int band_rows = (capacity.height + options_.threads - 1) / options_.threads;
     for (int i = 0; i < options_.threads; ++i) {
-      runners_.emplace_back(plan, size, bandOf(i).size(), options_);
+      runners_.emplace_back(plan, capacity, band_rows, options_);
     }
     team_ = std::make_unique<ThreadTeam>(options_.threads, [this](int member) { work(member); });
+  }
+
+  void setSize(const cv::Size& size) {
+    if (size.width < 1 || size.height < 1 || size.width > capacity_.width ||
+        size.height > capacity_.height) {
+      throw std::invalid_argument("the size is " + textOf(size) + ", must be from 1 x 1 to " +
+                                  textOf(capacity_));
+    }
+    size_ = size;
+    for (BandRunner& runner : runners_) runner.setSize(size);
   }
 
   const cv::Size& size() const { return size_; }
@@ -318,6 +343,7 @@ class BufferedExecutor::Implementation {
   }
 
   size_t features_;
+  cv::Size capacity_;
   cv::Size size_;
   ExecutorOptions options_;
   std::vector<BandRunner> runners_;
@@ -335,6 +361,7 @@ BufferedExecutor::~BufferedExecutor() = default;
 BufferedExecutor::BufferedExecutor(BufferedExecutor&&) noexcept = default;
 BufferedExecutor& BufferedExecutor::operator=(BufferedExecutor&&) noexcept = default;
 
+void BufferedExecutor::setSize(const cv::Size& size) { implementation_->setSize(size); }
 const cv::Size& BufferedExecutor::size() const { return implementation_->size(); }
 size_t BufferedExecutor::workspaceBytes() const { return implementation_->workspaceBytes(); }
 
@@ -358,9 +385,8 @@ void BufferedExecutor::run(const std::vector<cv::Mat1b>& planes,
   for (const cv::Mat1b& plane : planes) {
     if (plane.size() != size()) {
       throw std::invalid_argument(
-          "the image has " + std::to_string(plane.cols) + " x " + std::to_string(plane.rows) +
-          " pixels, the executor is made for " + std::to_string(size().width) + " x " +
-          std::to_string(size().height));
+          "the image has " + textOf(plane.size()) + " pixels, the executor is made for " +
+          textOf(size()));
     }
     inputs.push_back({plane.ptr(), static_cast<std::ptrdiff_t>(plane.step1())});
   }

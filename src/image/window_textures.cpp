@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include <opencv2/imgproc.hpp>
 
@@ -31,42 +33,66 @@ void greyPixels(const cv::Mat& image, const cv::Rect& region, WindowTexturesWork
   workspace.pixels = workspace.pixels(region - whole.tl());
 }
 
-/// Rows of the integral image at the corners of the quadrants.
-struct CornerRows {
-  const int* top;
-  const int* upper_middle;
-  const int* lower_middle;
-  const int* bottom;
+/// The window's quadrants without the middle row and column of an odd window: left minus right,
+/// upper minus lower, and diagonal minus diagonal.
+haar::FeatureEnsemble quadrantFeatures(int window_cells) {
+  const int half = window_cells / 2;
+  const int far = window_cells - half;
+  const auto feature = [&](const std::string& name, int ur, int ll, int lr) {
+    return haar::HaarFeature{name,
+                             {{0, 0, half, half, 1},
+                              {far, 0, half, half, ur},
+                              {0, far, half, half, ll},
+                              {far, far, half, half, lr}}};
+  };
+  return {"quadrants",
+          {feature("left_right", -1, 1, -1), feature("up_down", 1, -1, -1),
+           feature("diagonal", -1, -1, 1)}};
+}
+
+/// Sums of the pixels of each cell.
+void sumCells(const cv::Mat1b& pixels, int step, CellPlane& cells) {
+  cells.create(pixels.rows / step, pixels.cols / step);
+  cells.setTo(0);
+  for (int y = 0; y < cells.rows * step; ++y) {
+    const uchar* pixel = pixels[y];
+    int* const cell = cells[y / step];
+    for (int column = 0; column < cells.cols; ++column) {
+      for (int i = 0; i < step; ++i) cell[column] += *pixel++;
+    }
+  }
+}
+
+/// Features of a row of windows, and what their norms make of them.
+struct TextureRow {
+  const int* features[kTextureSize];
+  float* textures[kTextureSize];
 };
 
 CHAIN_TRACKER_MULTIVERSION
-void textureRow(const CornerRows& corners, int step, int half, int side, int columns,
-                float* __restrict left_right, float* __restrict up_down,
-                float* __restrict diagonal) {
-  const int* __restrict top = corners.top;
-  const int* __restrict upper = corners.upper_middle;
-  const int* __restrict lower = corners.lower_middle;
-  const int* __restrict bottom = corners.bottom;
-  const int right = side - half;
-  const float scale = 0.5F / (static_cast<float>(half) * static_cast<float>(half));
+void normalize(const TextureRow& row, float quadrant_area, int columns) {
+  const int* __restrict left_right = row.features[0];
+  const int* __restrict up_down = row.features[1];
+  const int* __restrict diagonal = row.features[2];
+  float* __restrict left_right_out = row.textures[0];
+  float* __restrict up_down_out = row.textures[1];
+  float* __restrict diagonal_out = row.textures[2];
+  const float scale = 0.5F / quadrant_area;
   const float flat = kFlatContrast * kFlatContrast;
-  for (int column = 0; column < columns; ++column) {
-    const int x = column * step;
-    const int ul = upper[x + half] - upper[x] - top[x + half] + top[x];
-    const int ur = upper[x + side] - upper[x + right] - top[x + side] + top[x + right];
-    const int ll = bottom[x + half] - bottom[x] - lower[x + half] + lower[x];
-    const int lr = bottom[x + side] - bottom[x + right] - lower[x + side] + lower[x + right];
-    const float a = scale * static_cast<float>(ul + ll - ur - lr);
-    const float b = scale * static_cast<float>(ul + ur - ll - lr);
-    const float c = scale * static_cast<float>(ul + lr - ur - ll);
+  for (int x = 0; x < columns; ++x) {
+    const float a = scale * static_cast<float>(left_right[x]);
+    const float b = scale * static_cast<float>(up_down[x]);
+    const float c = scale * static_cast<float>(diagonal[x]);
     const float norm = 1.0F / std::sqrt(a * a + b * b + c * c + flat);
-    left_right[column] = a * norm;
-    up_down[column] = b * norm;
-    diagonal[column] = c * norm;
+    left_right_out[x] = a * norm;
+    up_down_out[x] = b * norm;
+    diagonal_out[x] = c * norm;
   }
 }
 
 }  // namespace
+
+WindowTexturesWorkspace::WindowTexturesWorkspace() : cells(1), features(quadrantFeatures) {}
 
 WindowTexture textureOf(float upper_left, float upper_right, float lower_left, float lower_right) {
   const float a = 0.5F * (upper_left + lower_left - upper_right - lower_right);
@@ -81,19 +107,23 @@ void computeWindowTextures(const cv::Mat& image, const WindowLattice& lattice,
                            WindowTexturesWorkspace& workspace) {
   for (cv::Mat1f& plane : textures) plane.create(lattice.size);
   const int half = (lattice.window_cells / 2) * lattice.step;
-  const int side = lattice.window_cells * lattice.step;
   if (half == 0) {
     for (cv::Mat1f& plane : textures) plane.setTo(0.0F);
     return;
   }
   greyPixels(image, lattice.pixels(), workspace);
-  cv::integral(workspace.pixels, workspace.integral, CV_32S);
+  sumCells(workspace.pixels, lattice.step, workspace.cells.front());
+  const int max_cell = std::numeric_limits<uchar>::max() * lattice.step * lattice.step;
+  const std::vector<cv::Mat1i>& features =
+      workspace.features.compute(workspace.cells, lattice.window_cells, max_cell);
+  const float quadrant_area = static_cast<float>(half) * static_cast<float>(half);
   for (int row = 0; row < lattice.size.height; ++row) {
-    const int y = row * lattice.step;
-    const CornerRows corners{workspace.integral[y], workspace.integral[y + half],
-                             workspace.integral[y + side - half], workspace.integral[y + side]};
-    textureRow(corners, lattice.step, half, side, lattice.size.width, textures[0][row],
-               textures[1][row], textures[2][row]);
+    TextureRow windows{};
+    for (size_t i = 0; i < kTextureSize; ++i) {
+      windows.features[i] = features[i][row];
+      windows.textures[i] = textures[i][row];
+    }
+    normalize(windows, quadrant_area, lattice.size.width);
   }
 }
 

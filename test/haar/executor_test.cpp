@@ -301,6 +301,21 @@ TEST(BufferedExecutor, canRunAgainAndAgain) {
   }
 }
 
+TEST(BufferedExecutor, runsOnSmallerImagesToo) {
+  RandomInputs random(11);
+  const ConvolutionPlan plan(surfEnsemble());
+  for (const ExecutorOptions& options : executorOptions()) {
+    BufferedExecutor executor(plan, {80, 60}, options);
+    for (const cv::Size& size : {cv::Size(31, 60), cv::Size(1, 1), cv::Size(80, 7)}) {
+      executor.setSize(size);
+      const cv::Mat1b image = random.noise(size, CV_8UC1);
+      std::vector<cv::Mat1i> responses;
+      executor.run(image, responses);
+      EXPECT_EQ("", firstDifference(sumRectangles(image, plan.ensemble()), responses));
+    }
+  }
+}
+
 TEST(BufferedExecutor, ringsNeedLessMemoryThanWholeImages) {
   const ConvolutionPlan plan(surfEnsemble());
   ExecutorOptions options;
@@ -325,6 +340,10 @@ TEST(BufferedExecutor, refusesWhatItCannotRun) {
   BufferedExecutor executor(plan, {5, 5});
   EXPECT_EQ("", omissionsOf(refusalOf([&] { executor.run(cv::Mat1b(4, 6), responses); }),
                             {"6 x 4", "5 x 5"}));
+  for (const cv::Size& size : {cv::Size(0, 3), cv::Size(3, -1), cv::Size(6, 5), cv::Size(5, 6)}) {
+    EXPECT_EQ("", omissionsOf(refusalOf([&] { executor.setSize(size); }),
+                              {std::to_string(size.width), std::to_string(size.height), "5 x 5"}));
+  }
 }
 
 }  // namespace

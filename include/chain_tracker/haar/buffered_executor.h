@@ -72,6 +72,9 @@ class BufferedExecutor {
   BufferedExecutor(BufferedExecutor&&) noexcept;
   BufferedExecutor& operator=(BufferedExecutor&&) noexcept;
 
+  /// Of the images and responses from now on; at first the size that the executor was made for,
+  /// never more. Allocates nothing. Throws std::invalid_argument for a size out of range.
+  void setSize(const cv::Size& size);
   const cv::Size& size() const;
   /// Memory for intermediate values, all threads together [bytes].
   size_t workspaceBytes() const;

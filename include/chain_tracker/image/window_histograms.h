@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "chain_tracker/image/color_palette.h"
+#include "chain_tracker/image/window_responses.h"
 
 namespace chain_tracker {
 
@@ -34,12 +35,15 @@ struct WindowLattice {
 
 /// Memory that may be kept from call to call so that none is allocated.
 struct WindowHistogramsWorkspace {
+  WindowHistogramsWorkspace();
+
   cv::Mat1b entries;
-  std::vector<cv::Mat1f> cells;
-  cv::Mat1f column_sums;
+  std::vector<CellPlane> cells;
+  WindowResponses sums;
 };
 
 /// roots[entry](row, column) = sqrt(share of the window's pixels that have that palette entry).
+/// The sums over windows are those of the Haar front end, a plane for every palette entry.
 /// O(pixels + palette size x cells). `roots` gets palette.size() maps of lattice.size.
 void computeWindowHistograms(const cv::Mat& image, const ColorPalette& palette,
                              const WindowLattice& lattice, std::vector<cv::Mat1f>& roots,

@@ -30,14 +30,18 @@ using WindowTexture = std::array<float, kTextureSize>;
 WindowTexture textureOf(float upper_left, float upper_right, float lower_left, float lower_right);
 
 struct WindowTexturesWorkspace {
+  WindowTexturesWorkspace();
+
   cv::Mat1b grey;
   cv::Mat1b pixels;
-  cv::Mat1i integral;
+  std::vector<CellPlane> cells;  ///< one plane: sums of grey levels
+  WindowResponses features;
 };
 
 /// textures[i](row, column) = element i of the window's texture. A quadrant has half of the
 /// window's cells in each direction; an odd window's middle row and column count for neither.
 /// Outside the image its border pixels go on. `image`: CV_8UC3 (BGR) or CV_8UC1.
+/// The features are those of the Haar front end on the cells.
 /// O(pixels + windows). Windows of one cell have no quadrants: their texture is null.
 void computeWindowTextures(const cv::Mat& image, const WindowLattice& lattice,
                            std::array<cv::Mat1f, kTextureSize>& textures,

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/image/window_responses.h"
+
+#include <algorithm>
+
+#include "chain_tracker/image/multiversion.h"
+
+namespace chain_tracker {
+namespace {
+
+constexpr int kByteBits = 8;
+constexpr int kLargestByte = 255;
+/// Executors are made for sizes that are multiples of this, so that few are made.
+constexpr int kCapacityStep = 32;
+
+int roundedUp(int value) { return (value + kCapacityStep - 1) / kCapacityStep * kCapacityStep; }
+
+int bytesOf(int value) { return value <= kLargestByte ? 1 : 1 + bytesOf(value >> kByteBits); }
+
+CHAIN_TRACKER_MULTIVERSION
+void takeByte(const int* __restrict cell, int shift, int columns, uchar* __restrict byte) {
+  for (int x = 0; x < columns; ++x) byte[x] = static_cast<uchar>(cell[x] >> shift);
+}
+
+haar::PlanOptions planOptions(int max_byte) {
+  haar::PlanOptions options;
+  options.max_pixel = max_byte;
+  return options;
+}
+
+}  // namespace
+
+struct WindowResponses::Engine {
+  Engine(haar::FeatureEnsemble ensemble, int max_byte)
+      : plan(std::move(ensemble), planOptions(max_byte)) {}
+
+  void resize(const cv::Size& size) {
+    if (size.width > capacity.width || size.height > capacity.height) {
+      capacity = {roundedUp(std::max(size.width, capacity.width)),
+                  roundedUp(std::max(size.height, capacity.height))};
+      executor = std::make_unique<haar::BufferedExecutor>(plan, capacity);
+    }
+    executor->setSize(size);
+  }
+
+  haar::ConvolutionPlan plan;
+  cv::Size capacity;
+  std::unique_ptr<haar::BufferedExecutor> executor;
+};
+
+WindowResponses::WindowResponses(EnsembleOf ensemble_of) : ensemble_of_(std::move(ensemble_of)) {}
+WindowResponses::WindowResponses(WindowResponses&&) noexcept = default;
+WindowResponses& WindowResponses::operator=(WindowResponses&&) noexcept = default;
+WindowResponses::~WindowResponses() = default;
+
+WindowResponses::Engine& WindowResponses::engineFor(int window_cells, int max_byte,
+                                                    const cv::Size& size) {
+  std::unique_ptr<Engine>& engine = engines_[{window_cells, max_byte}];
+  if (!engine) engine = std::make_unique<Engine>(ensemble_of_(window_cells), max_byte);
+  engine->resize(size);
+  return *engine;
+}
+
+void WindowResponses::splitIntoBytes(const std::vector<CellPlane>& planes, int bytes) {
+  bytes_.resize(planes.size() * static_cast<size_t>(bytes));
+  for (size_t i = 0; i < bytes_.size(); ++i) {
+    const CellPlane& plane = planes[i % planes.size()];
+    const int shift = kByteBits * static_cast<int>(i / planes.size());
+    bytes_[i].create(plane.size());
+    for (int row = 0; row < plane.rows; ++row) {
+      takeByte(plane[row], shift, plane.cols, bytes_[i][row]);
+    }
+  }
+}
+
+void WindowResponses::run(Engine& engine, const cv::Size& size) {
+  responses_.resize(bytes_.size() * engine.plan.ensemble().size());
+  inputs_.clear();
+  for (const cv::Mat1b& plane : bytes_) {
+    inputs_.push_back({plane.ptr(), static_cast<std::ptrdiff_t>(plane.step1())});
+  }
+  outputs_.clear();
+  for (cv::Mat1i& response : responses_) {
+    response.create(size);
+    outputs_.push_back({response[0], static_cast<std::ptrdiff_t>(response.step1())});
+  }
+  engine.executor->run(inputs_.data(), static_cast<int>(inputs_.size()), outputs_.data());
+}
+
+const std::vector<cv::Mat1i>& WindowResponses::compute(const std::vector<CellPlane>& planes,
+                                                       int window_cells, int max_cell) {
+  const cv::Size size = planes.front().size();
+  Engine& engine = engineFor(window_cells, std::min(max_cell, kLargestByte), size);
+  splitIntoBytes(planes, bytesOf(max_cell));
+  run(engine, size);
+  // Responses are linear in the cells.
+  const size_t wanted = planes.size() * engine.plan.ensemble().size();
+  for (size_t i = wanted; i < responses_.size(); ++i) {
+    const int shift = kByteBits * static_cast<int>(i / wanted);
+    cv::scaleAdd(responses_[i], 1 << shift, responses_[i % wanted], responses_[i % wanted]);
+  }
+  responses_.resize(wanted);
+  return responses_;
+}
+
+}  // namespace chain_tracker
