@@ -222,8 +222,9 @@ class BandRunner {
     if (destination.consumer != nullptr) {
       sums_[index].run(source, response_.data(), sums);
       for (int i = 0; i < sums.rows; ++i) {
-        destination.consumer->consume({destination.plane, step.feature, image_row + i, first,
-                                       sums.columns, response_.data() + i * sums.columns});
+        destination.consumer->consume(
+            {destination.plane, step.feature, image_row + i, first, sums.columns,
+             response_.data() + static_cast<std::ptrdiff_t>(i) * sums.columns});
       }
       return;
     }
@@ -384,9 +385,8 @@ void BufferedExecutor::run(const std::vector<cv::Mat1b>& planes,
   std::vector<BytePlane> inputs;
   for (const cv::Mat1b& plane : planes) {
     if (plane.size() != size()) {
-      throw std::invalid_argument(
-          "the image has " + textOf(plane.size()) + " pixels, the executor is made for " +
-          textOf(size()));
+      throw std::invalid_argument("the image has " + textOf(plane.size()) +
+                                  " pixels, the executor is made for " + textOf(size()));
     }
     inputs.push_back({plane.ptr(), static_cast<std::ptrdiff_t>(plane.step1())});
   }

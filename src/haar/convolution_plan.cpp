@@ -119,7 +119,7 @@ Reach reachOfInputs(const PlanStep& step, const Reach& reach) {
 
 }  // namespace
 
-ConvolutionPlan::ConvolutionPlan(FeatureEnsemble ensemble, const PlanOptions& options)
+ConvolutionPlan::ConvolutionPlan(const FeatureEnsemble& ensemble, const PlanOptions& options)
     : ConvolutionPlan(ensemble, treeOf(ensemble, options), options) {}
 
 ConvolutionPlan::ConvolutionPlan(FeatureEnsemble ensemble, PassTree tree,
@@ -153,59 +153,58 @@ void ConvolutionPlan::proveRanges() {
   }
 }
 
+int ConvolutionPlan::addBuffer(int node, Lane lane, bool is_signed) {
+  PlanBuffer buffer;
+  buffer.node = node;
+  buffer.lane = lane;
+  buffer.is_signed = is_signed;
+  buffers_.push_back(buffer);
+  return static_cast<int>(buffers_.size()) - 1;
+}
+
+void ConvolutionPlan::addResponse(int source, const SparseKernel& edge, Lane lane, int feature) {
+  const FeatureNode& node = tree_.features[static_cast<size_t>(feature)];
+  PlanStep step;
+  step.source = source;
+  step.feature = feature;
+  step.lane = lane;
+  step.is_signed = fitsSigned16(ranges_[static_cast<size_t>(feature)]);
+  step.advance = -node.delay;
+  step.inputs = inputsOf(edge, node.scale);
+  steps_.push_back(std::move(step));
+}
+
 void ConvolutionPlan::makeSteps() {
   const LaneChoice lanes(tree_, ranges_, options_);
   const std::vector<std::vector<int>> features = featuresOfNodes(tree_);
   const std::vector<bool> is_parent = nodesWithChildren(tree_);
   std::vector<int> buffer_of(tree_.nodes.size(), -1);
   int integral[2] = {-1, -1};  // by lane
-
-  const auto addBuffer = [&](size_t node, Lane lane) {
-    PlanBuffer buffer;
-    buffer.node = static_cast<int>(node);
-    buffer.lane = lane;
-    buffer.is_signed = lanes.isSigned(node);
-    buffers_.push_back(buffer);
-    return static_cast<int>(buffers_.size()) - 1;
-  };
   for (const Lane lane : {Lane::k32, Lane::k16}) {
     for (size_t i = 1; i < tree_.nodes.size(); ++i) {
       int& buffer = integral[static_cast<size_t>(lane)];
       if (tree_.nodes[i].parent == 0 && lanes.lane(i) == lane && buffer < 0) {
-        buffer = addBuffer(0, lane);
+        buffer = addBuffer(0, lane, lanes.isSigned(0));
       }
     }
   }
-
-  const auto addResponse = [&](int source, const std::vector<PlanInput>& inputs, Lane lane,
-                               int feature) {
-    PlanStep step;
-    step.source = source;
-    step.feature = feature;
-    step.lane = lane;
-    step.is_signed = fitsSigned16(ranges_[static_cast<size_t>(feature)]);
-    step.advance = -tree_.features[static_cast<size_t>(feature)].delay;
-    step.inputs = inputs;
-    steps_.push_back(std::move(step));
-  };
   for (size_t i = 1; i < tree_.nodes.size(); ++i) {
     const PassNode& node = tree_.nodes[i];
     const int source = node.parent == 0 ? integral[static_cast<size_t>(lanes.lane(i))]
                                         : buffer_of[static_cast<size_t>(node.parent)];
     if (!is_parent[i] && features[i].size() == 1) {
-      const std::int64_t scale = tree_.features[static_cast<size_t>(features[i].front())].scale;
-      addResponse(source, inputsOf(node.edge, scale), lanes.lane(i), features[i].front());
+      addResponse(source, node.edge, lanes.lane(i), features[i].front());
       continue;
     }
+    buffer_of[i] = addBuffer(static_cast<int>(i), lanes.lane(i), lanes.isSigned(i));
     PlanStep step;
     step.source = source;
-    step.target = buffer_of[i] = addBuffer(i, lanes.lane(i));
+    step.target = buffer_of[i];
     step.lane = lanes.lane(i);
     step.inputs = inputsOf(node.edge, 1);
     steps_.push_back(std::move(step));
     for (const int feature : features[i]) {
-      const std::int64_t scale = tree_.features[static_cast<size_t>(feature)].scale;
-      addResponse(buffer_of[i], inputsOf(SparseKernel::one(), scale), lanes.lane(i), feature);
+      addResponse(buffer_of[i], SparseKernel::one(), lanes.lane(i), feature);
     }
   }
 }

@@ -179,11 +179,13 @@ class CostModel::Implementation {
     const double seconds = secondsOf([&] {
       for (int row = 1; row < kRingRows; ++row) {
         if (lane == Lane::k32) {
-          auto* rows = reinterpret_cast<std::uint32_t*>(source_.data()) + row * columns_;
+          auto* rows = reinterpret_cast<std::uint32_t*>(source_.data()) +
+                       static_cast<std::ptrdiff_t>(row) * columns_;
           integrateRow(pixels.data(), rows - columns_, 0U, rows, size_.width,
                        InstructionSet::kBest);
         } else {
-          auto* rows = reinterpret_cast<std::uint16_t*>(source_.data()) + row * columns_;
+          auto* rows = reinterpret_cast<std::uint16_t*>(source_.data()) +
+                       static_cast<std::ptrdiff_t>(row) * columns_;
           integrateRow(pixels.data(), rows - columns_, std::uint16_t{0}, rows, size_.width,
                        InstructionSet::kBest);
         }

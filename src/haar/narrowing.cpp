@@ -129,6 +129,7 @@ void alignSiblings(PassTree& tree) {
   for (const std::vector<size_t>& siblings : children) {
     if (siblings.empty()) continue;
     std::vector<Support> supports;
+    supports.reserve(siblings.size());
     for (const size_t node : siblings) supports.push_back(supportOf(tree.nodes[node].edge));
     const ReadAlignment alignment = alignReads(supports);
     for (size_t i = 0; i < siblings.size(); ++i) {

@@ -260,28 +260,28 @@ TEST(BufferedExecutor, handsEveryResponseToTheConsumerOnce) {
 
 /// Bytes and responses inside larger arrays, whose other cells must not matter or change.
 TEST(BufferedExecutor, staysInsideItsBuffers) {
-  constexpr int kGuard = 48;
-  constexpr int kGuardValue = 0x5A5A5A5A;
+  const int guard = 48;
+  const int guard_value = 0x5A5A5A5A;
   RandomInputs random(7);
   const FeatureEnsemble ensemble = violaJonesEnsemble();
   const ConvolutionPlan plan(ensemble);
   for (const cv::Size& size : {cv::Size(1, 1), cv::Size(33, 20), cv::Size(64, 9)}) {
-    const cv::Rect inside(cv::Point(kGuard, kGuard), size);
-    const cv::Size outer(size.width + 2 * kGuard, size.height + 2 * kGuard);
+    const cv::Rect inside(cv::Point(guard, guard), size);
+    const cv::Size outer(size.width + 2 * guard, size.height + 2 * guard);
     const cv::Mat1b pixels = random.noise(outer, CV_8UC1);
     const cv::Mat1b image = pixels(inside);
     for (const ExecutorOptions& options : executorOptions()) {
       std::vector<cv::Mat1i> memory;
       std::vector<cv::Mat1i> responses;
       for (size_t i = 0; i < ensemble.size(); ++i) {
-        memory.emplace_back(outer, kGuardValue);
+        memory.emplace_back(outer, guard_value);
         responses.push_back(memory.back()(inside));
       }
       BufferedExecutor(plan, size, options).run(image, responses);
       EXPECT_EQ("", firstDifference(sumRectangles(image.clone(), ensemble), responses));
       for (cv::Mat1i& array : memory) {
-        array(inside).setTo(kGuardValue);
-        EXPECT_EQ(0, cv::norm(array, cv::Mat1i(outer, kGuardValue), cv::NORM_INF));
+        array(inside).setTo(guard_value);
+        EXPECT_EQ(0, cv::norm(array, cv::Mat1i(outer, guard_value), cv::NORM_INF));
       }
     }
   }

@@ -72,7 +72,7 @@ class ConvolutionPlan {
  public:
   /// Parses the ensemble. Throws std::invalid_argument that names the feature whose response could
   /// overflow 32 bits, or whose rectangles cancel.
-  explicit ConvolutionPlan(FeatureEnsemble ensemble, const PlanOptions& options = {});
+  explicit ConvolutionPlan(const FeatureEnsemble& ensemble, const PlanOptions& options = {});
   /// The same with a tree from elsewhere, which must compute the ensemble.
   ConvolutionPlan(FeatureEnsemble ensemble, PassTree tree, const PlanOptions& options);
 
@@ -103,6 +103,8 @@ class ConvolutionPlan {
  private:
   void proveRanges();
   void makeSteps();
+  int addBuffer(int node, Lane lane, bool is_signed);
+  void addResponse(int source, const SparseKernel& edge, Lane lane, int feature);
   void measureReach();
 
   FeatureEnsemble ensemble_;
