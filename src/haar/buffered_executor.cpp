@@ -202,9 +202,13 @@ class BandRunner {
   void writeBuffer(size_t index, const Block& block) noexcept {
     const PlanStep& step = plan_.steps()[index];
     const RowRing& target = ring(step.target);
-    sums_[index].run(ring(step.source).store(), target.at(block.rows.start, block.columns.start),
-                     {block.rows.start, block.columns.start, block.rows.size(),
-                      block.columns.size(), target.stride()});
+    const Reach& reach = buffer(step.target).reach;
+    const int first = std::max(block.columns.start, roundedDown(reach.left - left_, kVector));
+    const int end =
+        std::min(block.columns.end, roundedUp(size_.width + reach.right - left_, kVector));
+    if (first >= end) return;
+    sums_[index].run(ring(step.source).store(), target.at(block.rows.start, first),
+                     {block.rows.start, first, block.rows.size(), end - first, target.stride()});
   }
 
   /// Responses are written up to a multiple of kVector columns, the last strip's up to the end.

@@ -187,12 +187,22 @@ CHAIN_TRACKER_INLINE Value sumOf(Taps, const Element* weights, const ValueOf& va
   constexpr int kCommonStart = kShape.plus + kShape.minus;
   constexpr int kCommonMinusStart = kCommonStart + kShape.common_plus;
   constexpr int kOtherStart = kCommonMinusStart + kShape.common_minus;
+  Value common{};
+  for (int k = kCommonStart; k < kCommonMinusStart; ++k) {
+    common = static_cast<Value>(common + value(k));
+  }
+  // Of values that are only taken away, the sum is taken away: nothing is negated.
+  constexpr bool kIsNegative = kShape.common_plus == 0;
+  for (int k = kCommonMinusStart; k < kOtherStart; ++k) {
+    common = static_cast<Value>(kIsNegative ? common + value(k) : common - value(k));
+  }
   Value sum{};
-  for (int k = kCommonStart; k < kCommonMinusStart; ++k) sum = static_cast<Value>(sum + value(k));
-  for (int k = kCommonMinusStart; k < kOtherStart; ++k) sum = static_cast<Value>(sum - value(k));
-  if constexpr (kShape.common != 0) sum = product(sum, static_cast<Element>(kShape.common));
   for (int k = 0; k < kShape.plus; ++k) sum = static_cast<Value>(sum + value(k));
   for (int k = kShape.plus; k < kCommonStart; ++k) sum = static_cast<Value>(sum - value(k));
+  if constexpr (kShape.common != 0) {
+    common = product(common, static_cast<Element>(kShape.common));
+    sum = static_cast<Value>(kIsNegative ? sum - common : sum + common);
+  }
   for (int k = kOtherStart; k < Taps::kTaps; ++k) {
     sum = static_cast<Value>(sum + product(value(k), weights[k]));
   }
@@ -206,15 +216,17 @@ CHAIN_TRACKER_INLINE void sumShape(const RowTap* taps, const RowStore& source,
   using Source = typename K::Source;
   using Sum = typename K::Sum;
   const Source* from[Taps::kTaps];
+  int rows_left[Taps::kTaps];  // until the store comes round
   Sum weights[Taps::kTaps];
-  for (int k = 0; k < Taps::kTaps; ++k) weights[k] = static_cast<Sum>(taps[k].weight);
+  for (int k = 0; k < Taps::kTaps; ++k) {
+    const int row = (block.row - taps[k].dy) & source.mask;
+    from[k] =
+        static_cast<const Source*>(source.first) + row * source.stride + block.column - taps[k].dx;
+    rows_left[k] = source.mask - row;
+    weights[k] = static_cast<Sum>(taps[k].weight);
+  }
   const int columns = block.columns;
   for (int y = 0; y < block.rows; ++y) {
-    for (int k = 0; k < Taps::kTaps; ++k) {
-      from[k] = static_cast<const Source*>(source.first) +
-                ((block.row + y - taps[k].dy) & source.mask) * source.stride + block.column -
-                taps[k].dx;
-    }
     int x = 0;
 #ifdef __AVX2__
     using Access = VectorAccess<K>;
@@ -231,6 +243,9 @@ CHAIN_TRACKER_INLINE void sumShape(const RowTap* taps, const RowStore& source,
       target[x] = static_cast<typename K::Target>(taken);
     }
     target += block.target_stride;
+    for (int k = 0; k < Taps::kTaps; ++k) {
+      from[k] += rows_left[k]-- == 0 ? -source.mask * source.stride : source.stride;
+    }
   }
 }
 
