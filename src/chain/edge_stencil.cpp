@@ -14,6 +14,26 @@ constexpr double kCutOffSigmas = 3.0;
 
 double square(double x) { return x * x; }
 
+/// An edge against the one where the spring rests.
+struct PolarDifference {
+  double stretch = 0.0;  ///< [px]
+  double turn = 0.0;     ///< [rad], in [-pi, pi]
+};
+
+class PolarFrame {
+ public:
+  PolarFrame(double length, double direction)
+      : length_(length), axis_(std::cos(direction), std::sin(direction)) {}
+
+  PolarDifference differenceOf(const cv::Point2d& edge) const {
+    return {std::sqrt(edge.dot(edge)) - length_, std::atan2(axis_.cross(edge), axis_.dot(edge))};
+  }
+
+ private:
+  double length_;
+  cv::Point2d axis_;
+};
+
 /// Upright bounds of all edges within the cut-off [px].
 cv::Rect2d cutOffBounds(const EdgePotential& potential) {
   const double low = std::max(0.0, potential.length - kCutOffSigmas * potential.length_sigma);
@@ -51,9 +71,9 @@ StencilOffset cheapestOffset(const EdgePotential& potential, int step, const cv:
 }  // namespace
 
 double EdgePotential::at(const cv::Point2d& edge) const {
-  const double turn = wrapAngle(directionOf(edge) - direction);
-  return 0.5 * square((cv::norm(edge) - length) / length_sigma) +
-         0.5 * square(turn / direction_sigma);
+  const PolarDifference difference = PolarFrame(length, direction).differenceOf(edge);
+  return 0.5 * square(difference.stretch / length_sigma) +
+         0.5 * square(difference.turn / direction_sigma);
 }
 
 EdgePotential onLattice(EdgePotential potential, double step) {
@@ -69,15 +89,17 @@ EdgeStencil sampleEdge(const EdgePotential& potential, int step, const cv::Point
   // One step more than the bounds, which are rounded; the loop looks at each offset exactly.
   const auto first = [&](double low) { return static_cast<int>(std::floor(low / step)); };
   const auto last = [&](double high) { return static_cast<int>(std::ceil(high / step)); };
+  const PolarFrame frame(potential.length, potential.direction);
   EdgeStencil stencil;
   for (int rows = first(bounds.y); rows <= last(bounds.br().y); ++rows) {
     for (int columns = first(bounds.x); columns <= last(bounds.br().x); ++columns) {
       const cv::Point2d edge = cv::Point2d(columns * step, rows * step) + shift;
-      const double stretch = std::abs(cv::norm(edge) - potential.length);
-      if (stretch > kCutOffSigmas * potential.length_sigma) continue;
-      const double turn = std::abs(wrapAngle(directionOf(edge) - potential.direction));
-      if (turn > kCutOffSigmas * potential.direction_sigma) continue;
-      stencil.push_back({columns, rows, static_cast<float>(potential.at(edge))});
+      const PolarDifference difference = frame.differenceOf(edge);
+      const double stretch = difference.stretch / potential.length_sigma;
+      const double turn = difference.turn / potential.direction_sigma;
+      if (std::abs(stretch) > kCutOffSigmas || std::abs(turn) > kCutOffSigmas) continue;
+      const double cost = 0.5 * square(stretch) + 0.5 * square(turn);
+      stencil.push_back({columns, rows, static_cast<float>(cost)});
     }
   }
   if (stencil.empty()) stencil.push_back(cheapestOffset(potential, step, shift));

@@ -79,12 +79,19 @@ CandidateGrid makeCandidateGrid(const std::vector<cv::Point2d>& centers, double 
 void computePartCosts(const cv::Mat& image, const ColorPalette& palette,
                       const std::vector<RootHistogram>& parts, const CandidateGrid& grid,
                       double weight, std::vector<cv::Mat1f>& costs, PartCostsWorkspace& workspace) {
-  computeWindowHistograms(image, palette, grid.lattice, workspace.roots, workspace.histograms);
+  const bool is_sparse = grid.isSparse();
+  if (!is_sparse) {
+    computeWindowHistograms(image, palette, grid.lattice, workspace.roots, workspace.histograms);
+  }
   costs.resize(parts.size());
   for (size_t k = 0; k < parts.size(); ++k) {
+    if (is_sparse) {
+      computeWindowHistograms(image, palette, grid.latticeOf(k), workspace.roots,
+                              workspace.histograms);
+    }
+    const cv::Point corner = is_sparse ? cv::Point(0, 0) : grid.corners[k];
     costs[k].create(grid.states);
-    computePartCost(workspace.roots, parts[k], grid.corners[k], static_cast<float>(weight),
-                    costs[k]);
+    computePartCost(workspace.roots, parts[k], corner, static_cast<float>(weight), costs[k]);
   }
 }
 

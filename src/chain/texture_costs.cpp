@@ -28,10 +28,16 @@ void addRow(const float* __restrict left_right, const float* __restrict up_down,
 void addTextureCosts(const cv::Mat& image, const std::vector<WindowTexture>& parts,
                      const CandidateGrid& grid, double weight, std::vector<cv::Mat1f>& costs,
                      TextureCostsWorkspace& workspace) {
-  computeWindowTextures(image, grid.lattice, workspace.textures, workspace.windows);
+  const bool is_sparse = grid.isSparse();
+  if (!is_sparse) {
+    computeWindowTextures(image, grid.lattice, workspace.textures, workspace.windows);
+  }
   const auto half_weight = static_cast<float>(0.5 * weight);
   for (size_t k = 0; k < parts.size(); ++k) {
-    const cv::Point& corner = grid.corners[k];
+    if (is_sparse) {
+      computeWindowTextures(image, grid.latticeOf(k), workspace.textures, workspace.windows);
+    }
+    const cv::Point corner = is_sparse ? cv::Point(0, 0) : grid.corners[k];
     for (int row = 0; row < grid.states.height; ++row) {
       const auto from = [&](size_t i) { return workspace.textures[i][corner.y + row] + corner.x; };
       addRow(from(0), from(1), from(2), parts[k], half_weight, costs[k][row], grid.states.width);

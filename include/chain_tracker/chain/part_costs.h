@@ -26,6 +26,18 @@ struct CandidateGrid {
     return lattice.centerOf(corners[part].x + state.x, corners[part].y + state.y);
   }
 
+  /// The candidates of one part alone.
+  WindowLattice latticeOf(size_t part) const {
+    return {lattice.origin + lattice.step * corners[part], lattice.step, lattice.window_cells,
+            states};
+  }
+
+  /// Whether the lattices of the parts cover fewer pixels, all together, than the common one.
+  bool isSparse() const {
+    return static_cast<double>(corners.size()) * latticeOf(0).pixels().area() <
+           lattice.pixels().area();
+  }
+
   /// Position of state (0, 0) of a node that has no window, whose middle state lies nearest to
   /// `center` on the lattice [px].
   cv::Point2d originAround(const cv::Point2d& center) const;
@@ -43,7 +55,8 @@ struct PartCostsWorkspace {
 
 /// costs[k](row, column) = weight * sqrt(1 - BC), BC the Bhattacharyya coefficient of part k's
 /// histogram and that of the window at that state: in [0, weight].
-/// O(pixels of the lattice + parts x states x palette entries of a part).
+/// O(pixels of the lattice, or of the parts' lattices if these are fewer, + parts x states x
+/// palette entries of a part).
 void computePartCosts(const cv::Mat& image, const ColorPalette& palette,
                       const std::vector<RootHistogram>& parts, const CandidateGrid& grid,
                       double weight, std::vector<cv::Mat1f>& costs, PartCostsWorkspace& workspace);
