@@ -23,15 +23,20 @@ struct PolarDifference {
 class PolarFrame {
  public:
   PolarFrame(double length, double direction)
-      : length_(length), axis_(std::cos(direction), std::sin(direction)) {}
+      : length_(length),
+        axis_(std::cos(direction), std::sin(direction)),
+        null_turn_(wrapAngle(-direction)) {}
 
   PolarDifference differenceOf(const cv::Point2d& edge) const {
+    // The null edge points along the x axis.
+    if (edge == cv::Point2d()) return {-length_, null_turn_};
     return {std::sqrt(edge.dot(edge)) - length_, std::atan2(axis_.cross(edge), axis_.dot(edge))};
   }
 
  private:
   double length_;
   cv::Point2d axis_;
+  double null_turn_;
 };
 
 /// Upright bounds of all edges within the cut-off [px].
