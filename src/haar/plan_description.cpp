@@ -35,14 +35,19 @@ void describeNode(const ConvolutionPlan& plan, size_t node, const std::string& i
   }
 }
 
+std::string proofText(const PassTree& tree) {
+  if (tree.isProvenBest()) return "proven to be the fewest of the parser's space";
+  return "the fewest found; no tree of the parser's space has fewer than " +
+         std::to_string(tree.least_accesses);
+}
+
 }  // namespace
 
 std::string ConvolutionPlan::describe() const {
   std::ostringstream out;
   out << "ensemble " << ensemble_.name() << ": " << ensemble_.size() << " features\n"
       << "accesses per pixel: classic " << classicAccesses() << ", parsed " << accesses() << " ("
-      << tree_.reads() << " reads, " << tree_.writes() << " writes), "
-      << (tree_.proven_best ? "proven to be the fewest" : "the fewest found") << "\n";
+      << tree_.reads() << " reads, " << tree_.writes() << " writes), " << proofText(tree_) << "\n";
   describeNode(*this, 0, "", out);
   out << "rows needed below a response: " << lookahead()
       << "; pixels outside the image count as 0\n";

@@ -50,7 +50,7 @@ TEST(Parser, isNeverWorseThanTheClassicWay) {
       ParserOptions options;
       options.factor = factor;
       options.search_rounds = 2;
-      options.exact_trees = 200;
+      options.exact_work = 0;
       const PassTree tree = parse(ensemble, options);
       EXPECT_EQ("", faultOf(tree, ensemble));
       EXPECT_LE(tree.accesses(), classicAccesses(ensemble));
@@ -70,7 +70,7 @@ TEST(Parser, equalsExhaustiveSearchForSmallEnsembles) {
     SCOPED_TRACE(round);
     const FeatureEnsemble ensemble = randomShapes(random, 1 + round % 2, 4);
     const PassTree tree = parse(ensemble);
-    EXPECT_TRUE(tree.proven_best);
+    EXPECT_TRUE(tree.isProvenBest());
     EXPECT_EQ(exhaustive::fewestAccesses(ensemble), tree.accesses());
   }
 }
@@ -79,7 +79,7 @@ TEST(Parser, equalsExhaustiveSearchForBoxesThatDoubleInSize) {
   const FeatureEnsemble boxes(
       "boxes", {{"a", {{0, 0, 2, 2, 1}}}, {"b", {{0, 0, 4, 4, 1}}}, {"c", {{0, 0, 2, 4, 1}}}});
   const PassTree tree = parse(boxes);
-  EXPECT_TRUE(tree.proven_best);
+  EXPECT_TRUE(tree.isProvenBest());
   EXPECT_EQ(exhaustive::fewestAccesses(boxes), tree.accesses());
 }
 
