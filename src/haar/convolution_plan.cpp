@@ -22,6 +22,7 @@ PassTree treeOf(const FeatureEnsemble& ensemble, const PlanOptions& options) {
   ParserOptions parser;
   parser.factor = options.factor;
   parser.search_rounds = options.search_rounds;
+  parser.exact_work = options.exact_work;
   return options.share ? parse(ensemble, parser) : parseSeparately(ensemble, parser);
 }
 

@@ -26,8 +26,8 @@ std::string textOfFile(const std::string& path) {
 /// One place in a document.
 class Reader {
  public:
-  Reader(YAML::Node node, std::string source, int line)
-      : node_(std::move(node)), source_(std::move(source)), line_(line) {}
+  Reader(const YAML::Node& node, std::string source, int line)
+      : node_(node), source_(std::move(source)), line_(line) {}
 
   /// The values of exactly these keys, in this order.
   std::vector<Reader> values(const std::vector<std::string>& keys) const {

@@ -2,7 +2,6 @@
 #include "forest_search.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <random>
 
@@ -160,138 +159,6 @@ class LocalSearch {
   std::mt19937 random_{1};
 };
 
-/// All sequences of divisors, each dividing the next, that end with each target.
-class ChainTable {
- public:
-  explicit ChainTable(const KernelLattice& lattice) : lattice_(lattice) {}
-
-  std::vector<std::vector<int>> chains(size_t target) const {
-    std::vector<std::vector<int>> chains;
-    std::vector<int> chain = {lattice_.targets()[target]};
-    extend(target, chain, chains);
-    return chains;
-  }
-
- private:
-  /// Chains are built from their end.
-  void extend(size_t target, std::vector<int>& chain, std::vector<std::vector<int>>& chains) const {
-    chains.emplace_back(chain.rbegin(), chain.rend());
-    for (const int divisor : lattice_.divisors(target)) {
-      if (lattice_.edge(chain.back(), divisor) == nullptr) continue;
-      chain.push_back(divisor);
-      extend(target, chain, chains);
-      chain.pop_back();
-    }
-  }
-
-  const KernelLattice& lattice_;
-};
-
-/// Depth first over the chains of one target after the other; costs only grow.
-class ExactSearch {
- public:
-  ExactSearch(const KernelLattice& lattice, const std::vector<int>& features, std::int64_t known)
-      : lattice_(lattice),
-        features_(features),
-        best_(known),
-        parents_(static_cast<size_t>(lattice.size()), KernelForest::kAbsent) {
-    for (size_t i = 0; i < features.size(); ++i) {
-      chains_.push_back(ChainTable(lattice).chains(i));
-    }
-  }
-
-  ExactResult run() {
-    visit(0);
-    return {std::move(result_), all_proven_};
-  }
-
- private:
-  void visit(size_t target) {
-    const std::int64_t cost = costSoFar();
-    if (cost >= best_) return;
-    if (target == chains_.size()) {
-      best_ = cost;
-      result_ = forest();
-      return;
-    }
-    for (const std::vector<int>& chain : chains_[target]) {
-      const size_t before = nodes_.size();
-      if (add(chain)) visit(target + 1);
-      while (nodes_.size() > before) {
-        parents_[static_cast<size_t>(nodes_.back())] = KernelForest::kAbsent;
-        nodes_.pop_back();
-      }
-    }
-  }
-
-  /// False if a node of the chain is there already under another parent.
-  bool add(const std::vector<int>& chain) {
-    int parent = 0;
-    for (const int kernel : chain) {
-      int& known = parents_[static_cast<size_t>(kernel)];
-      if (known != KernelForest::kAbsent && known != parent) return false;
-      if (known == KernelForest::kAbsent) {
-        known = parent;
-        nodes_.push_back(kernel);
-      }
-      parent = kernel;
-    }
-    return true;
-  }
-
-  std::map<int, std::vector<int>> childrenByParent() const {
-    std::map<int, std::vector<int>> children;
-    for (const int node : nodes_) children[parents_[static_cast<size_t>(node)]].push_back(node);
-    return children;
-  }
-
-  /// Reads and writes of line buffers of the nodes so far, and the writes of all features.
-  std::int64_t costSoFar() {
-    std::int64_t cost = std::accumulate(features_.begin(), features_.end(), std::int64_t{0});
-    for (const auto& [parent, children] : childrenByParent()) {
-      cost += alignmentOf(parent, children).reads + (parent != 0 ? 1 : 0);
-    }
-    return cost;
-  }
-
-  const ReadAlignment& alignmentOf(int parent, const std::vector<int>& children) {
-    std::vector<Support> supports;
-    for (const int child : children) supports.push_back(lattice_.edge(child, parent)->support);
-    std::vector<std::vector<std::pair<int, int>>> key;
-    for (const Support& support : supports) {
-      key.emplace_back();
-      for (const cv::Point& point : support) key.back().emplace_back(point.y, point.x);
-    }
-    const auto [entry, is_new] = alignments_.try_emplace(std::move(key));
-    if (is_new) {
-      entry->second = alignReads(supports);
-      all_proven_ = all_proven_ && entry->second.is_proven;
-    }
-    return entry->second;
-  }
-
-  KernelForest forest() {
-    KernelForest forest(lattice_, features_, true);
-    for (const auto& [parent, children] : childrenByParent()) {
-      const ReadAlignment& alignment = alignmentOf(parent, children);
-      for (size_t i = 0; i < children.size(); ++i) {
-        forest.attach(children[i], parent, alignment.shifts[i]);
-      }
-    }
-    return forest;
-  }
-
-  const KernelLattice& lattice_;
-  const std::vector<int>& features_;
-  std::int64_t best_;
-  std::vector<int> parents_;  ///< by kernel
-  std::vector<int> nodes_;
-  std::vector<std::vector<std::vector<int>>> chains_;
-  std::map<std::vector<std::vector<std::pair<int, int>>>, ReadAlignment> alignments_;
-  bool all_proven_ = true;
-  std::optional<KernelForest> result_;
-};
-
 }  // namespace
 
 KernelForest directForest(const KernelLattice& lattice, const std::vector<int>& features,
@@ -314,23 +181,6 @@ KernelForest directForest(const KernelLattice& lattice, const std::vector<int>& 
 
 KernelForest searchForest(const KernelLattice& lattice, const KernelForest& start, int rounds) {
   return LocalSearch(lattice, start).run(rounds);
-}
-
-std::int64_t countForests(const KernelLattice& lattice, std::int64_t limit) {
-  std::int64_t count = 1;
-  for (size_t target = 0; target < lattice.targets().size(); ++target) {
-    // Chains are more than divisors: no need to list them all where those are too many.
-    const auto least = static_cast<std::int64_t>(lattice.divisors(target).size()) + 1;
-    if (least > 64 || count * least > limit) return limit + 1;
-    count *= static_cast<std::int64_t>(ChainTable(lattice).chains(target).size());
-    if (count > limit) return limit + 1;
-  }
-  return count;
-}
-
-ExactResult searchAllForests(const KernelLattice& lattice, const std::vector<int>& features,
-                             std::int64_t known) {
-  return ExactSearch(lattice, features, known).run();
 }
 
 }  // namespace chain_tracker::haar

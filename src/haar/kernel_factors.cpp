@@ -16,6 +16,7 @@ SparseKernel difference(Axis axis, int delay) {
 /// 1 + D + D^2 + .. (terms), D = X^delay or Y^delay.
 SparseKernel sum(Axis axis, int delay, int terms) {
   std::vector<KernelTap> taps;
+  taps.reserve(static_cast<size_t>(terms));
   for (int i = 0; i < terms; ++i) {
     taps.push_back(axis == Axis::kX ? KernelTap{0, i * delay, 1} : KernelTap{i * delay, 0, 1});
   }

@@ -106,6 +106,7 @@ void KernelForest::realign() {
     const std::vector<int> siblings = children(node);
     if (siblings.size() < 2) continue;
     std::vector<Support> supports;
+    supports.reserve(siblings.size());
     for (const int child : siblings) supports.push_back(lattice_->edge(child, node)->support);
     const ReadAlignment alignment = alignReads(supports);
     if (alignment.reads >= readsOf(node)) continue;

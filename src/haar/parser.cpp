@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "chain_tracker/haar/double_difference.h"
+#include "exact_search.h"
 #include "forest_search.h"
 #include "kernel_forest.h"
 #include "kernel_lattice.h"
@@ -64,15 +65,15 @@ PassTree parse(const FeatureEnsemble& ensemble, const ParserOptions& options) {
   KernelForest forest =
       directForest(lattice, targets.counts, targets.positions, options.share_reads);
   if (is_searched) forest = searchForest(lattice, forest, options.search_rounds);
-  bool is_proven = false;
-  if (is_searched && options.share_reads &&
-      countForests(lattice, options.exact_trees) <= options.exact_trees) {
-    ExactResult exact = searchAllForests(lattice, targets.counts, forest.cost().accesses);
-    if (exact.better) forest = *exact.better;
-    is_proven = exact.is_proven;
+  std::int64_t least = trivialBound(static_cast<std::int64_t>(ensemble.size()));
+  if (is_searched && lattice.size() <= kMaxExact && options.exact_work > 0) {
+    ExactResult exact =
+        searchExactly(lattice, targets.counts, forest.cost().accesses, options.exact_work);
+    least = exact.least;
+    if (exact.best && options.share_reads) forest = *exact.best;
   }
   PassTree tree = forest.tree(features);
-  tree.proven_best = is_proven;
+  tree.least_accesses = least;
   return tree;
 }
 

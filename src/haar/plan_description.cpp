@@ -35,13 +35,18 @@ void describeNode(const ConvolutionPlan& plan, size_t node, const std::string& i
   }
 }
 
+std::string proofText(std::int64_t accesses, std::int64_t least) {
+  if (accesses == least) return "proven to be the fewest of the parser's space";
+  return "the fewest found; no tree of the parser's space has fewer than " + std::to_string(least);
+}
+
 }  // namespace
 
 std::string ConvolutionPlan::describe() const {
   std::ostringstream out;
   out << "ensemble " << ensemble_.name() << ": " << ensemble_.size() << " features\n"
       << "accesses per pixel: classic " << classicAccesses() << ", parsed " << parsedAccesses()
-      << ", " << (tree_.proven_best ? "proven to be the fewest" : "the fewest found") << "\n"
+      << " (" << proofText(parsedAccesses(), tree_.least_accesses) << ")\n"
       << "run with " << accesses() << " (" << tree_.reads() << " reads, " << tree_.writes()
       << " writes)"
       << (accesses() == parsedAccesses() ? "" : ", more of which have 16 bits instead of 32")

@@ -18,70 +18,132 @@ cv::Point pointOf(std::uint64_t key) {
   return {static_cast<int>(static_cast<std::uint32_t>(key)), static_cast<int>(key >> 32U)};
 }
 
-/// A better alignment than a known one, if there is one.
-class AlignmentSearch {
- public:
-  AlignmentSearch(const std::vector<Support>& supports, ReadAlignment known, int max_steps)
-      : supports_(supports),
-        best_(std::move(known)),
-        shifts_(supports.size()),
-        is_placed_(supports.size(), false),
-        steps_left_(max_steps) {
-    const auto largest =
-        std::max_element(supports.begin(), supports.end(),
-                         [](const Support& a, const Support& b) { return a.size() < b.size(); });
-    least_ = static_cast<int>(largest->size());
-    place(static_cast<size_t>(largest - supports.begin()), {}, {});
-    best_.is_proven = steps_left_ > 0;
+/// How many of the points of a support are in a set of points, by shift; only shifts at which there
+/// are any, in the order of their keys.
+std::vector<std::pair<std::uint64_t, int>> meetings(const std::vector<std::uint64_t>& points,
+                                                    const Support& support) {
+  std::vector<std::uint64_t> shifts;
+  shifts.reserve(points.size() * support.size());
+  for (const std::uint64_t point : points) {
+    for (const cv::Point& own : support) shifts.push_back(keyOf(pointOf(point) - own));
   }
+  std::sort(shifts.begin(), shifts.end());
+  std::vector<std::pair<std::uint64_t, int>> counts;
+  for (const std::uint64_t shift : shifts) {
+    if (counts.empty() || counts.back().first != shift) counts.emplace_back(shift, 0);
+    ++counts.back().second;
+  }
+  return counts;
+}
 
-  const ReadAlignment& best() const { return best_; }
+/// Whether supports can be shifted so that their union has at most `most` points.
+class UnionSearch {
+ public:
+  UnionSearch(const std::vector<Support>& supports, int most, std::int64_t max_work)
+      : supports_(supports), most_(most), max_work_(max_work), shifts_(supports.size()) {}
+
+  UnionAnswer run() {
+    std::vector<size_t> rest(supports_.size());
+    std::iota(rest.begin(), rest.end(), size_t{0});
+    const auto largest = std::max_element(rest.begin(), rest.end(), [&](size_t a, size_t b) {
+      return supports_[a].size() < supports_[b].size();
+    });
+    const bool found = placeAt({}, *largest, {}, rest);
+    if (found) return {true, shifts_, work_};
+    return {hasGivenUp(), {}, work_};
+  }
 
  private:
-  using Points = std::set<std::uint64_t>;
+  using Points = std::vector<std::uint64_t>;  ///< sorted
 
-  void place(size_t index, const cv::Point& shift, const Points& before) {
-    --steps_left_;
-    auto size = static_cast<int>(before.size());
-    for (const cv::Point& point : supports_[index]) {
-      size += 1 - static_cast<int>(before.count(keyOf(point + shift)));
+  /// A support that is not placed yet, and what it shares with the points at each shift.
+  struct Candidate {
+    size_t index = 0;
+    std::vector<std::pair<std::uint64_t, int>> shared;
+    size_t shifts = 0;  ///< at which it adds no more points than are allowed
+
+    int mostShared() const {
+      int most = 0;
+      for (const auto& entry : shared) most = std::max(most, entry.second);
+      return most;
     }
-    if (size >= best_.reads) return;
-    Points reads = before;
-    for (const cv::Point& point : supports_[index]) reads.insert(keyOf(point + shift));
-    is_placed_[index] = true;
+  };
+
+  bool hasGivenUp() const { return work_ >= max_work_; }
+  int sizeOf(size_t index) const { return static_cast<int>(supports_[index].size()); }
+
+  bool placeAt(const Points& before, size_t index, const cv::Point& shift,
+               std::vector<size_t> rest) {
     shifts_[index] = shift;
-    if (visited_.emplace(is_placed_, reads).second) continueFrom(reads);
-    is_placed_[index] = false;
+    rest.erase(std::find(rest.begin(), rest.end(), index));
+    Points points = before;
+    for (const cv::Point& own : supports_[index]) points.push_back(keyOf(own + shift));
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    if (static_cast<int>(points.size()) > most_) return false;
+    return visited_.insert(points).second && placeRest(points, rest);
   }
 
-  void continueFrom(const Points& reads) {
-    bool is_complete = true;
-    for (size_t i = 0; i < supports_.size(); ++i) {
-      if (is_placed_[i]) continue;
-      is_complete = false;
-      std::set<std::uint64_t> shifts;
-      for (const std::uint64_t read : reads) {
-        for (const cv::Point& point : supports_[i]) shifts.insert(keyOf(pointOf(read) - point));
-      }
-      for (const std::uint64_t shift : shifts) {
-        if (best_.reads == least_ || steps_left_ <= 0) return;
-        place(i, pointOf(shift), reads);
+  bool placeRest(const Points& points, std::vector<size_t> rest) {
+    const int allowed = most_ - static_cast<int>(points.size());
+    std::vector<Candidate> candidates;
+    for (const size_t index : std::vector<size_t>(rest)) {
+      work_ += static_cast<std::int64_t>(points.size() * supports_[index].size());
+      if (hasGivenUp()) return false;
+      Candidate candidate{index, meetings(points, supports_[index]), 0};
+      const int new_points = sizeOf(index) - candidate.mostShared();
+      if (new_points > allowed) return false;
+      if (new_points == 0) {
+        shifts_[index] = shiftThatShares(candidate, sizeOf(index));
+        rest.erase(std::find(rest.begin(), rest.end(), index));
+      } else {
+        candidates.push_back(std::move(candidate));
       }
     }
-    if (is_complete) {
-      best_.reads = static_cast<int>(reads.size());
-      best_.shifts = shifts_;
+    if (candidates.empty()) return true;
+    return tryAll(points, toBranchOn(std::move(candidates), allowed), rest, allowed);
+  }
+
+  static cv::Point shiftThatShares(const Candidate& candidate, int points) {
+    const auto entry = std::find_if(candidate.shared.begin(), candidate.shared.end(),
+                                    [&](const auto& e) { return e.second == points; });
+    return pointOf(entry->first);
+  }
+
+  /// One support that must meet the points, because it has more points than may be added: the one
+  /// with the fewest shifts. If there is none, any support may be the next that meets them.
+  std::vector<Candidate> toBranchOn(std::vector<Candidate> candidates, int allowed) const {
+    const Candidate* fewest = nullptr;
+    for (Candidate& candidate : candidates) {
+      const int size = sizeOf(candidate.index);
+      if (size <= allowed) continue;
+      candidate.shifts = static_cast<size_t>(
+          std::count_if(candidate.shared.begin(), candidate.shared.end(),
+                        [&](const auto& entry) { return size - entry.second <= allowed; }));
+      if (fewest == nullptr || candidate.shifts < fewest->shifts) fewest = &candidate;
     }
+    if (fewest == nullptr) return candidates;
+    return {*fewest};
+  }
+
+  bool tryAll(const Points& points, const std::vector<Candidate>& candidates,
+              const std::vector<size_t>& rest, int allowed) {
+    for (const Candidate& candidate : candidates) {
+      for (const auto& [shift, shared] : candidate.shared) {
+        if (sizeOf(candidate.index) - shared > allowed) continue;
+        if (placeAt(points, candidate.index, pointOf(shift), rest)) return true;
+        if (hasGivenUp()) return false;
+      }
+    }
+    return false;
   }
 
   const std::vector<Support>& supports_;
-  ReadAlignment best_;
+  int most_;
+  std::int64_t max_work_;
+  std::int64_t work_ = 0;
   std::vector<cv::Point> shifts_;
-  std::vector<bool> is_placed_;
-  std::set<std::pair<std::vector<bool>, Points>> visited_;
-  int steps_left_;
-  int least_ = 0;
+  std::set<Points> visited_;  ///< what they leave to be placed follows from the points
 };
 
 ReadAlignment alignGreedily(const std::vector<Support>& supports) {
@@ -137,9 +199,21 @@ void ReadSet::remove(const Support& support, const cv::Point& shift) {
   }
 }
 
-ReadAlignment alignReads(const std::vector<Support>& supports, int max_steps) {
-  const ReadAlignment greedy = alignGreedily(supports);
-  return AlignmentSearch(supports, greedy, max_steps).best();
+UnionAnswer unionWithin(const std::vector<Support>& supports, int most, std::int64_t max_work) {
+  return UnionSearch(supports, most, max_work).run();
+}
+
+ReadAlignment alignReads(const std::vector<Support>& supports, std::int64_t max_work) {
+  ReadAlignment alignment = alignGreedily(supports);
+  for (;;) {
+    const UnionAnswer fewer = unionWithin(supports, alignment.reads - 1, max_work);
+    alignment.is_proven = !fewer.is_possible;
+    if (fewer.shifts.empty()) return alignment;
+    ReadSet reads;
+    for (size_t i = 0; i < supports.size(); ++i) reads.add(supports[i], fewer.shifts[i]);
+    alignment.shifts = fewer.shifts;
+    alignment.reads = reads.size();
+  }
 }
 
 }  // namespace chain_tracker::haar

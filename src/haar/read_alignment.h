@@ -34,15 +34,27 @@ class ReadSet {
   std::unordered_map<std::uint64_t, int> counts_;  ///< readers of each value
 };
 
+struct UnionAnswer {
+  bool is_possible = false;       ///< false: proven that no shifts do it
+  std::vector<cv::Point> shifts;  ///< that do it, of each support; empty if none were found
+  std::int64_t work = 0;          ///< pairs of values that were compared
+};
+
+/// Whether supports can be shifted so that they read at most `most` values altogether. In some best
+/// alignment every support shares a value with others, else some could be shifted until they do:
+/// so supports are added one by one, each at a shift at which it meets those there. A support that
+/// fits into what is read already costs nothing and is placed at once; one that would add too much
+/// at every shift proves that there is no way. Gives up once it has compared `max_work` pairs of
+/// values.
+UnionAnswer unionWithin(const std::vector<Support>& supports, int most, std::int64_t max_work);
+
 struct ReadAlignment {
   std::vector<cv::Point> shifts;  ///< of each support
   int reads = 0;
   bool is_proven = false;  ///< no other shifts read fewer values
 };
 
-/// Branch and bound from a greedy alignment. In a best alignment every set shares a value with
-/// another, else one could be shifted until it does: so sets are added one by one, each at a shift
-/// at which it meets those there. Gives up the proof after `max_steps`.
-ReadAlignment alignReads(const std::vector<Support>& supports, int max_steps = 20000);
+/// Improves a greedy alignment as long as unionWithin() finds one with fewer reads.
+ReadAlignment alignReads(const std::vector<Support>& supports, std::int64_t max_work = 1000000);
 
 }  // namespace chain_tracker::haar

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 #include <tuple>
 
 namespace chain_tracker::haar {
@@ -148,6 +149,7 @@ std::string SparseKernel::text() const {
 }
 
 AlignedKernel alignedKernel(const SparseKernel& kernel) {
+  if (kernel.isZero()) throw std::invalid_argument("the zero kernel cannot be aligned");
   AlignedKernel aligned;
   aligned.delay = kernel.minDelay();
   std::int64_t divisor = 0;

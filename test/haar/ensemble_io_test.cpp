@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "chain_tracker/haar/convolution_plan.h"
+#include "chain_tracker/haar/shipped_ensembles.h"
 #include "support/haar_inputs.h"
 #include "support/refusal.h"
 
@@ -154,6 +155,35 @@ TEST(EnsembleIo, mutatedFilesAreReadOrRefused) {
     refused += (yaml.empty() ? 0 : 1) + (xml.empty() ? 0 : 1);
   }
   EXPECT_GT(refused, 1000);
+}
+
+std::string textOf(const FeatureEnsemble& ensemble) {
+  std::ostringstream text;
+  for (const HaarFeature& feature : ensemble.features()) {
+    text << feature.name << ":";
+    for (const WeightedRectangle& r : feature.rectangles) {
+      text << " " << r.x << "," << r.y << "," << r.width << "," << r.height << "," << r.weight;
+    }
+    text << "\n";
+  }
+  return text.str();
+}
+
+TEST(ShippedEnsembleFiles, areReadAndEqualTheGenerators) {
+  const std::filesystem::path folder =
+      std::filesystem::path(CHAIN_TRACKER_SOURCE_DIR) / "config" / "ensembles";
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const FeatureEnsemble ensemble = loadEnsemble(entry.path().string());
+    EXPECT_EQ(entry.path().stem().string(), ensemble.name());
+    EXPECT_LT(ConvolutionPlan(ensemble).accesses(), classicAccesses(ensemble));
+    ++files;
+  }
+  EXPECT_EQ(3, files);
+  for (const std::string name : {"surf", "viola_jones"}) {
+    EXPECT_EQ(textOf(shippedEnsemble(name)),
+              textOf(loadEnsemble((folder / (name + ".yaml")).string())));
+  }
 }
 
 }  // namespace

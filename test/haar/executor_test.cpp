@@ -43,7 +43,10 @@ std::vector<ExecutorOptions> executorOptions() {
 
 std::vector<PlanOptions> planOptions() {
   std::vector<PlanOptions> all(5);
-  for (PlanOptions& options : all) options.search_rounds = 2;
+  for (PlanOptions& options : all) {
+    options.search_rounds = 2;
+    options.exact_work = 0;
+  }
   all[1].factor = false;
   all[2].share = false;
   all[3].narrow = false;
@@ -111,6 +114,7 @@ TEST(Executors, equalCornerReadsForEveryShippedEnsembleOnHostileSizes) {
     const FeatureEnsemble ensemble = shippedEnsemble(name);
     PlanOptions options;
     options.search_rounds = 2;
+    options.exact_work = 0;
     const ConvolutionPlan plan(ensemble, options);
     cv::Rect bounds;
     for (const HaarFeature& feature : ensemble.features()) bounds |= feature.bounds();
@@ -132,6 +136,7 @@ TEST(Executors, equalCornerReadsForEveryShippedEnsembleOnALargeImage) {
     const FeatureEnsemble ensemble = shippedEnsemble(name);
     PlanOptions options;
     options.search_rounds = 2;
+    options.exact_work = 0;
     std::vector<cv::Mat1i> expected;
     CornerReads(ensemble).run(image, expected);
     EXPECT_EQ("",

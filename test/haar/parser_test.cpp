@@ -50,7 +50,7 @@ TEST(Parser, isNeverWorseThanTheClassicWay) {
       ParserOptions options;
       options.factor = factor;
       options.search_rounds = 2;
-      options.exact_trees = 200;
+      options.exact_work = 0;
       const PassTree tree = parse(ensemble, options);
       EXPECT_EQ("", faultOf(tree, ensemble));
       EXPECT_LE(tree.accesses(), classicAccesses(ensemble));
@@ -64,22 +64,47 @@ TEST(Parser, isNeverWorseThanTheClassicWay) {
   }
 }
 
-TEST(Parser, equalsExhaustiveSearchForSmallEnsembles) {
-  RandomInputs random(2);
-  for (int round = 0; round < 12; ++round) {
-    SCOPED_TRACE(round);
-    const FeatureEnsemble ensemble = randomShapes(random, 1 + round % 2, 4);
+struct SmallEnsembles {
+  int features;
+  int largest_side;
+  int ensembles;
+};
+
+class SmallEnsemblesParser : public testing::TestWithParam<SmallEnsembles> {};
+
+TEST_P(SmallEnsemblesParser, equalsExhaustiveSearch) {
+  RandomInputs random(1);
+  for (int i = 0; i < GetParam().ensembles; ++i) {
+    SCOPED_TRACE(i);
+    const FeatureEnsemble ensemble =
+        randomShapes(random, GetParam().features, GetParam().largest_side);
     const PassTree tree = parse(ensemble);
-    EXPECT_TRUE(tree.proven_best);
-    EXPECT_EQ(exhaustive::fewestAccesses(ensemble), tree.accesses());
+    EXPECT_EQ("", faultOf(tree, ensemble));
+    EXPECT_TRUE(tree.isProvenBest());
+    EXPECT_EQ(exhaustive::fewestAccesses(ensemble, tree.accesses()), tree.accesses());
   }
+}
+
+INSTANTIATE_TEST_SUITE_P(Features, SmallEnsemblesParser,
+                         testing::Values(SmallEnsembles{1, 5, 8}, SmallEnsembles{2, 4, 8},
+                                         SmallEnsembles{3, 3, 6}, SmallEnsembles{4, 3, 4},
+                                         SmallEnsembles{5, 2, 6}, SmallEnsembles{6, 2, 3}));
+
+TEST(Parser, tellsWhatEveryTreeNeedsAtLeast) {
+  const FeatureEnsemble surf = surfEnsemble();
+  const PassTree tree = parse(surf);
+  EXPECT_LE(tree.least_accesses, tree.accesses());
+  EXPECT_GE(tree.least_accesses, 40);
+  ParserOptions nothing_proven;
+  nothing_proven.exact_work = 0;
+  EXPECT_LT(parse(surf, nothing_proven).least_accesses, tree.least_accesses);
 }
 
 TEST(Parser, equalsExhaustiveSearchForBoxesThatDoubleInSize) {
   const FeatureEnsemble boxes(
       "boxes", {{"a", {{0, 0, 2, 2, 1}}}, {"b", {{0, 0, 4, 4, 1}}}, {"c", {{0, 0, 2, 4, 1}}}});
   const PassTree tree = parse(boxes);
-  EXPECT_TRUE(tree.proven_best);
+  EXPECT_TRUE(tree.isProvenBest());
   EXPECT_EQ(exhaustive::fewestAccesses(boxes), tree.accesses());
 }
 

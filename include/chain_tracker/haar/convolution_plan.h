@@ -28,6 +28,7 @@ struct PlanOptions {
   bool narrow = true;      ///< off: all sums are taken modulo 2^32, no pass is added for 16 bits
   int max_pixel = 255;     ///< the largest value that a pixel takes, in [1, 255]; 1 for masks
   int search_rounds = 50;  ///< of the parser's local search, >= 0; see parser.h
+  std::int64_t exact_work = 10000000;  ///< of the parser's exact search, >= 0
 };
 
 enum class Lane { k16, k32 };

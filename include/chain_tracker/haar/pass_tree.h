@@ -39,11 +39,12 @@ struct PassTree {
   std::vector<PassNode> nodes;        ///< parents before children
   std::vector<FeatureNode> features;  ///< one for each feature of the ensemble, in its order
   bool reads_shared = true;           ///< whether siblings share reads
-  bool proven_best = false;           ///< no tree of the parser's space is cheaper
+  std::int64_t least_accesses = 0;    ///< proven: no tree of the parser's space has fewer
 
   std::int64_t reads() const;
   std::int64_t writes() const;
   std::int64_t accesses() const { return reads() + writes(); }
+  bool isProvenBest() const { return accesses() == least_accesses; }
 };
 
 /// Reads and writes of the classic way: corners plus one for each feature.

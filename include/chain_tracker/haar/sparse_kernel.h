@@ -78,7 +78,7 @@ struct AlignedKernel {
   std::int64_t scale = 1;
 };
 
-/// O(taps); the kernel must not be zero.
+/// O(taps). Throws std::invalid_argument for the zero kernel.
 AlignedKernel alignedKernel(const SparseKernel& kernel);
 
 }  // namespace chain_tracker::haar
