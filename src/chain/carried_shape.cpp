@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <opencv2/imgproc.hpp>
+
 namespace chain_tracker {
 namespace {
 
@@ -52,6 +54,13 @@ bool isUpright(const std::vector<cv::Point2d>& corners, double orientation) {
 
 }  // namespace
 
+std::vector<cv::Point2d> hullOf(const std::vector<cv::Point2d>& points) {
+  const std::vector<cv::Point2f> corners(points.begin(), points.end());
+  std::vector<cv::Point2f> hull;
+  cv::convexHull(corners, hull);
+  return {hull.begin(), hull.end()};
+}
+
 CarriedShape::CarriedShape(const SegmentLayout& segment)
     : deformable_(segment.layout == Layout::kDeformable),
       initial_orientation_(segment.image_from_segment.angle),
@@ -85,19 +94,28 @@ std::vector<CarriedPoint> CarriedShape::points(const SegmentState& segment,
   return points;
 }
 
-std::vector<cv::Point2d> CarriedShape::outline(const SegmentState& segment) const {
+std::vector<cv::Point2d> CarriedShape::outline(const SegmentState& segment,
+                                               const std::vector<PartState>& parts) const {
   std::vector<cv::Point2d> outline;
+  if (deformable_) {
+    for (const CarriedPoint& point : points(segment, parts)) outline.push_back(point.position);
+    for (const PartState& part : parts) outline.push_back(part.position);
+    return hullOf(outline);
+  }
   for (const cv::Point2d& corner : corners_) {
     outline.push_back(segment.image_from_segment.apply(corner));
   }
   return outline;
 }
 
-cv::Rect2d CarriedShape::box(const SegmentState& segment) const {
-  if (!isUpright(corners_, initial_orientation_)) return uprightBounds(outline(segment));
+cv::Rect2d CarriedShape::box(const SegmentState& segment,
+                             const std::vector<PartState>& parts) const {
+  if (deformable_ || !isUpright(corners_, initial_orientation_)) {
+    return uprightBounds(outline(segment, parts));
+  }
   SegmentState unturned = segment;
   unturned.image_from_segment.angle = initial_orientation_;
-  return uprightBounds(outline(unturned));
+  return uprightBounds(outline(unturned, parts));
 }
 
 std::vector<double> partOrientations(const SegmentLayout& layout, const SegmentState& segment,

@@ -74,6 +74,20 @@ struct Search {
   std::vector<PoseGrid> poses;
 };
 
+/// Length of the chain found over that of the reference. What coils up comes nearer to its middle
+/// without becoming shorter: a similarity would take that for a smaller scale.
+double lengthRatio(const std::vector<cv::Point2d>& reference, const std::vector<cv::Point2d>& found,
+                   const std::vector<double>& weights) {
+  double reference_length = 0.0;
+  double found_length = 0.0;
+  for (size_t k = 1; k < found.size(); ++k) {
+    const double weight = std::min(weights[k - 1], weights[k]);
+    reference_length += weight * cv::norm(reference[k] - reference[k - 1]);
+    found_length += weight * cv::norm(found[k] - found[k - 1]);
+  }
+  return found_length / reference_length;
+}
+
 double clampedTurn(double from, double to, double limit) {
   return wrapAngle(from + std::clamp(wrapAngle(to - from), -limit, limit));
 }
@@ -394,7 +408,10 @@ class ChainTracker::Implementation {
       found.push_back(part.position);
       weights.push_back(part.confidence + kSmallestWeight);
     }
-    const Similarity fit = fitSimilarity(reference, found, weights);
+    Similarity fit = fitSimilarity(reference, found, weights);
+    if (layout_.segments[m].layout == Layout::kDeformable) {
+      fit.scale = lengthRatio(reference, found, weights);
+    }
     const PoseGrid poses = finePoses(model_.segments[m], searched);
     const double angle = clampedTurn(searched.orientation, fit.angle, 0.5 * poses.orientation_step);
     const double scale = clampedScale(searched.scale, fit.scale, 0.5 * poses.scale_step);

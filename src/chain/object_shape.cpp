@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <opencv2/imgproc.hpp>
-
 namespace chain_tracker {
 namespace {
 
@@ -29,14 +27,6 @@ void joinPoints(const std::vector<CarriedPoint>& next, std::vector<CarriedPoint>
   points.insert(points.end(), next.begin() + 1, next.end());
 }
 
-std::vector<cv::Point2d> hullOf(const std::vector<cv::Point2d>& points) {
-  std::vector<cv::Point2f> corners;
-  for (const cv::Point2d& point : points) corners.emplace_back(point);
-  std::vector<cv::Point2f> hull;
-  cv::convexHull(corners, hull);
-  return {hull.begin(), hull.end()};
-}
-
 }  // namespace
 
 ObjectShape::ObjectShape(std::vector<SegmentLayout> segments) : segments_(std::move(segments)) {
@@ -56,11 +46,11 @@ void ObjectShape::carry(ChainState& state) const {
       part.side = segments_[m].parts[k].side * segment.image_from_segment.scale;
     }
     joinPoints(shapes_[m].points(segment, parts), state.points);
-    const std::vector<cv::Point2d> corners = shapes_[m].outline(segment);
+    const std::vector<cv::Point2d> corners = shapes_[m].outline(segment, parts);
     state.outline.insert(state.outline.end(), corners.begin(), corners.end());
   }
   if (segments_.size() == 1) {
-    state.box = shapes_.front().box(state.segments.front());
+    state.box = shapes_.front().box(state.segments.front(), state.parts);
   } else {
     state.outline = hullOf(state.outline);
     state.box = uprightBounds(state.outline);

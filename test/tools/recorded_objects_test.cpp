@@ -39,8 +39,8 @@ ChainState stateOf(const SegmentLayout& layout, const Similarity& pose, Tracking
   }
   const CarriedShape shape(layout);
   state.points = shape.points(segment, state.parts);
-  state.outline = shape.outline(segment);
-  state.box = shape.box(segment);
+  state.outline = shape.outline(segment, state.parts);
+  state.box = shape.box(segment, state.parts);
   state.segments = {segment};
   return state;
 }

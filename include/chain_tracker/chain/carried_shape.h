@@ -12,6 +12,9 @@
 
 namespace chain_tracker {
 
+/// Corners of the convex hull.
+std::vector<cv::Point2d> hullOf(const std::vector<cv::Point2d>& points);
+
 /// The shape that initialised a segment. On a rigid layout it moves with the segment's similarity,
 /// which averages over all parts; on a deformable one each point moves with the nearest edge.
 class CarriedShape {
@@ -22,12 +25,14 @@ class CarriedShape {
   std::vector<CarriedPoint> points(const SegmentState& segment,
                                    const std::vector<PartState>& parts) const;
 
-  /// Corners of the initial box, turned and scaled with the segment.
-  std::vector<cv::Point2d> outline(const SegmentState& segment) const;
+  /// Corners of the initial box, turned and scaled with the segment. What bends anywhere soon
+  /// leaves that box: it has the convex hull of its points and parts instead.
+  std::vector<cv::Point2d> outline(const SegmentState& segment,
+                                   const std::vector<PartState>& parts) const;
 
   /// Upright box of the object: an upright initial box moves and rescales but does not turn, a
-  /// turned one gives the bounds of its outline.
-  cv::Rect2d box(const SegmentState& segment) const;
+  /// turned one and a deformable object give the bounds of their outline.
+  cv::Rect2d box(const SegmentState& segment, const std::vector<PartState>& parts) const;
 
  private:
   struct Anchor {

@@ -53,8 +53,8 @@ struct ChainState {
   std::vector<PartState> parts;
   std::vector<SegmentState> segments;
   std::vector<CarriedPoint> points;  ///< in the order given at initialisation
-  std::vector<cv::Point2d> outline;  ///< corners of the initial box, moved with the object [px]
-  cv::Rect2d box;                    ///< upright bounds of the moved initial box [px]
+  std::vector<cv::Point2d> outline;  ///< see CarriedShape::outline() and ObjectShape::carry() [px]
+  cv::Rect2d box;                    ///< upright [px]; see the same
   StepTimes times;
 };
 
