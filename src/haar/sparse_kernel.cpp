@@ -149,11 +149,11 @@ std::string SparseKernel::text() const {
 }
 
 AlignedKernel alignedKernel(const SparseKernel& kernel) {
-  if (kernel.isZero()) throw std::invalid_argument("the zero kernel cannot be aligned");
-  AlignedKernel aligned;
-  aligned.delay = kernel.minDelay();
   std::int64_t divisor = 0;
   for (const KernelTap& tap : kernel.taps()) divisor = std::gcd(divisor, tap.weight);
+  if (divisor == 0) throw std::invalid_argument("the zero kernel cannot be aligned");
+  AlignedKernel aligned;
+  aligned.delay = kernel.minDelay();
   aligned.scale = kernel.taps().front().weight < 0 ? -divisor : divisor;
   std::vector<KernelTap> taps = kernel.taps();
   for (KernelTap& tap : taps) {

@@ -56,7 +56,8 @@ ChainModel ModelFolder::load(const std::string& name_or_file) const {
 
 ChainModel ModelFolder::loadFor(const std::vector<cv::Point2d>& points,
                                 const std::string& name_or_file) const {
-  return load(name_or_file == kAuto ? autoModelName(points) : name_or_file);
+  if (name_or_file != kAuto) return load(name_or_file);
+  return withRoomForParts(load(autoModelName(points)), points);
 }
 
 }  // namespace chain_tracker

@@ -6,6 +6,25 @@
 namespace chain_tracker {
 namespace {
 
+ChainModel cable(int parts) {
+  ChainModel model;
+  model.segments.emplace_back();
+  model.segments[0].layout = Layout::kDeformable;
+  model.segments[0].parts = parts;
+  model.segments[0].window = 1.2;
+  return model;
+}
+
+TEST(WithRoomForParts, keepsWindowsOfDeformableSegmentsWide) {
+  const std::vector<cv::Point2d> polyline = {{0, 0}, {30, 40}, {150, 40}};
+  EXPECT_EQ(34, withRoomForParts(cable(48), polyline).segments[0].parts) << "170 px * 1.2 / 6 px";
+  EXPECT_EQ(20, withRoomForParts(cable(20), polyline).segments[0].parts);
+  EXPECT_EQ(6, withRoomForParts(cable(48), {{0, 0}, {20, 0}}).segments[0].parts);
+  ChainModel box = cable(48);
+  box.segments[0].layout = Layout::kPlanar;
+  EXPECT_EQ(48, withRoomForParts(box, polyline).segments[0].parts);
+}
+
 TEST(AutoModel, TwoEndsAreABottle) { EXPECT_EQ(autoModelName({{10, 10}, {10, 90}}), "bottle"); }
 
 TEST(AutoModel, FourCornersAreABox) {

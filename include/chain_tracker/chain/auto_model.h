@@ -7,6 +7,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "chain_tracker/chain/chain_model.h"
+
 namespace chain_tracker {
 
 /// "box" for the four corners of a rectangle in order, "bottle" for two ends, "articulated" for a
@@ -14,5 +16,9 @@ namespace chain_tracker {
 /// if its corners are right to within 15 degrees. Points are joints if there are at most five, as
 /// nobody draws a curve with so few, or if the line turns by more than 45 degrees at each.
 std::string autoModelName(const std::vector<cv::Point2d>& points);
+
+/// The model, with fewer parts in its deformable segments where the polyline is so short that their
+/// windows would be narrower than 6 px; never fewer than 6 parts.
+ChainModel withRoomForParts(ChainModel model, const std::vector<cv::Point2d>& points);
 
 }  // namespace chain_tracker

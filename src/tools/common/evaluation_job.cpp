@@ -124,7 +124,6 @@ SequenceStart startOf(const EvaluationJob& job, const Input& input) {
         " has neither ground truth nor an init.yaml that say where the object is: "
         "give --points x,y,x,y,... or --ground-truth");
   }
-  if (start.model == "auto") start.model = autoModelName(start.points);
   return start;
 }
 
@@ -139,7 +138,7 @@ std::vector<std::unique_ptr<EvaluatedTracker>> makeTrackers(const EvaluationJob&
                                                             const SequenceStart& start) {
   const ModelFolder models(ModelFolder::ofThisPackage());
   std::vector<std::unique_ptr<EvaluatedTracker>> trackers;
-  trackers.push_back(makeChainTracker(models.load(start.model), start.points));
+  trackers.push_back(makeChainTracker(models.loadFor(start.points, start.model), start.points));
   for (const std::string& name : job.baselines) {
     trackers.push_back(makeBaseline(name, firstBox(truth, start)));
   }
@@ -215,7 +214,8 @@ nlohmann::json runJob(const EvaluationJob& job, const std::function<bool()>& int
   const EvaluationResult result = runTrackers(job, input, start, options);
   progress.finish();
   warnOfGaps(input, result, job);
-  const std::string model = input.recording ? input.recording->model : start.model;
+  const std::string wanted = input.recording ? input.recording->model : start.model;
+  const std::string model = wanted == "auto" ? autoModelName(start.points) : wanted;
   nlohmann::json summary = summaryOf(result, input.name, model);
   writeResults(result, summary, job.out);
   writeWorstFrames(*openSource(job), result, input.truth, job.out + "/worst_frames.jpg");
