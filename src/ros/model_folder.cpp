@@ -23,6 +23,10 @@ std::string joined(const std::vector<std::string>& names) {
   return text.empty() ? "none" : text;
 }
 
+bool isFile(const std::string& name_or_file) {
+  return std::filesystem::path(name_or_file).extension() == kExtension;
+}
+
 }  // namespace
 
 std::string ModelFolder::ofThisPackage() {
@@ -41,9 +45,7 @@ std::vector<std::string> ModelFolder::names() const {
 }
 
 ChainModel ModelFolder::load(const std::string& name_or_file) const {
-  if (std::filesystem::path(name_or_file).extension() == kExtension) {
-    return loadChainModel(name_or_file);
-  }
+  if (isFile(name_or_file)) return loadChainModel(name_or_file);
   const std::vector<std::string> known = names();
   if (!std::binary_search(known.begin(), known.end(), name_or_file)) {
     throw std::invalid_argument("model '" + name_or_file + "' is unknown, must be auto, a file (*" +
@@ -56,8 +58,9 @@ ChainModel ModelFolder::load(const std::string& name_or_file) const {
 
 ChainModel ModelFolder::loadFor(const std::vector<cv::Point2d>& points,
                                 const std::string& name_or_file) const {
-  if (name_or_file != kAuto) return load(name_or_file);
-  return withRoomForParts(load(autoModelName(points)), points);
+  if (isFile(name_or_file)) return load(name_or_file);
+  const std::string name = name_or_file == kAuto ? autoModelName(points) : name_or_file;
+  return withRoomForParts(load(name), points);
 }
 
 }  // namespace chain_tracker

@@ -61,12 +61,12 @@ TEST_F(SetTargetTest, NoIdAndNoModelMeanTheDefaults) {
 
 TEST_F(SetTargetTest, TakesAModelFile) {
   SetTarget::Request request = bottleRequest("left", leftBottle());
-  request.model = std::string(CHAIN_TRACKER_SOURCE_DIR) + "/config/models/cable.yaml";
+  request.model = std::string(CHAIN_TRACKER_SOURCE_DIR) + "/config/models/worm.yaml";
   const auto answer = client_.setTarget(request, image_);
   EXPECT_TRUE(answer.success) << answer.message;
   const auto object = objectOf(client_.show(image_), "left");
   ASSERT_TRUE(object);
-  EXPECT_EQ(object->model, "cable");
+  EXPECT_EQ(object->model, "worm");
 }
 
 struct Nonsense {
