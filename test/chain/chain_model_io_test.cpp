@@ -256,8 +256,12 @@ TEST(ShippedModels, articulatedHasALinkForEveryEdge) {
   ChainModel expected;
   expected.name = "articulated";
   expected.segment_per_edge = true;
-  expected.segments[0].name = "link";
-  expected.segments[0].parts = 6;
+  SegmentModel& segment = expected.segments[0];
+  segment.name = "link";
+  segment.parts = 8;
+  segment.aspect = 0.28;
+  segment.scale_hypotheses = 1;
+  segment.scale_step = 0.01;
   EXPECT_EQ("", differencesOf(expected, loadChainModel(kShippedModels + "/articulated.yaml")));
 }
 
