@@ -71,6 +71,14 @@ void turnLengthwise(OrientedRectangle& rectangle) {
   rectangle.angle = wrapAngle(rectangle.angle + CV_PI / 2.0);
 }
 
+/// By a fraction of its size on every side.
+OrientedRectangle grown(OrientedRectangle rectangle, double margin) {
+  const double growth = 2.0 * margin * std::sqrt(rectangle.length * rectangle.width);
+  rectangle.length += growth;
+  rectangle.width += growth;
+  return rectangle;
+}
+
 /// Columns (along the length) and rows (across) of nearly square cells, nearly `parts` in all.
 cv::Size chooseGrid(double length, double width, int parts) {
   cv::Size best(parts, 1);
@@ -135,7 +143,7 @@ SegmentLayout layOutRectangle(const SegmentModel& model, const std::vector<cv::P
   if (elongated) turnLengthwise(rectangle);
   SegmentLayout segment;
   segment.image_from_segment = {rectangle.angle, 1.0, rectangle.center};
-  segment.parts = serpentine(rectangle, model);
+  segment.parts = serpentine(grown(rectangle, model.margin), model);
   segment.corners = cornersOf(rectangle.length, rectangle.width);
   return segment;
 }

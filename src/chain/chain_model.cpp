@@ -40,6 +40,7 @@ void checkSegment(const SegmentModel& segment, const std::string& prefix, FaultL
   faults.requireText(prefix + "name", segment.name);
   faults.requireRange(prefix + "parts", segment.parts, 2, 200);
   faults.requireRange(prefix + "aspect", segment.aspect, 0.001, 1.0);
+  faults.requireRange(prefix + "margin", segment.margin, 0.0, 1.0);
   faults.requireRange(prefix + "window", segment.window, 0.2, 10.0);
   faults.requireRange(prefix + "stretch_sigma", segment.stretch_sigma, 0.005, 1.0);
   faults.requireRange(prefix + "bend_sigma", segment.bend_sigma, 0.005, 3.0);

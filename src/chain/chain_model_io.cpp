@@ -123,6 +123,7 @@ void readSegment(const Reader& reader, SegmentModel& segment) {
                   {"layout", into(segment.layout)},
                   {"parts", into(segment.parts)},
                   {"aspect", into(segment.aspect)},
+                  {"margin", into(segment.margin)},
                   {"window", into(segment.window)},
                   {"stretch_sigma", into(segment.stretch_sigma)},
                   {"bend_sigma", into(segment.bend_sigma)},

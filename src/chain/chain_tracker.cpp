@@ -35,6 +35,8 @@ constexpr double kWidestSearch = 0.5;
 /// Of the refinement around the coarse match [px]: the windows of the coarse lattice are rounded to
 /// whole cells, which moves their optimum however fine the lattice is.
 constexpr int kLeastReach = 4;
+/// Of a part whose window shows nothing of the object, of the largest cost.
+constexpr double kLeastEvidence = 0.1;
 /// Keeps the fit defined when no part is seen.
 constexpr double kSmallestWeight = 1e-3;
 
@@ -110,6 +112,7 @@ class ChainTracker::Implementation {
         image_type_(image.type()),
         state_(initialState()) {
     for (const PartState& part : state_.parts) initial_orientations_.push_back(part.orientation);
+    for (size_t k = 0; k < state_.parts.size(); ++k) evidence_.push_back(evidenceOf(k));
   }
 
   const ChainState& update(const cv::Mat& image) {
@@ -352,10 +355,11 @@ class ChainTracker::Implementation {
     found.confidence = 0.0;
     bool all_visible = true;
     for (size_t k = 0; k < refinement.parts.size(); ++k) {
-      found.parts[k] = partState(refinement.parts[k]);
-      found.confidence += found.parts[k].confidence / static_cast<double>(found.parts.size());
+      found.parts[k] = partState(refinement.parts[k], evidence_[k]);
       all_visible = all_visible && found.parts[k].visible;
     }
+    if (!refinement.parts.empty())
+      found.confidence = meanConfidence(found.parts, 0, found.parts.size());
     found.status = nextStatus(state_.status, found.confidence, all_visible, model_.search);
     if (found.status == TrackingStatus::kLost) {
       ++frames_lost_;
@@ -385,12 +389,36 @@ class ChainTracker::Implementation {
     }
   }
 
-  PartState partState(const RefinedPart& refined) const {
+  /// What a part would cost on a flat piece of background: little if its own window shows little
+  /// else, so that it cannot tell whether the object is there.
+  double evidenceOf(size_t part) {
+    const AppearanceModel& model = model_.appearance;
+    const PartAppearance& learned = appearance_.part(part, 0.0);
+    const double other = learned.colors[ColorPalette::kOther];
+    const double colors = std::sqrt(std::max(0.0, 1.0 - other));
+    const double texture =
+        0.5 * std::sqrt(std::inner_product(learned.texture.begin(), learned.texture.end(),
+                                           learned.texture.begin(), 0.0));
+    const double least = kLeastEvidence * (model.weight + model.haar_weight);
+    return std::max(least, model.weight * colors + model.haar_weight * texture);
+  }
+
+  /// Of `count` parts, weighted by what they can tell.
+  double meanConfidence(const std::vector<PartState>& parts, size_t first, size_t count) const {
+    double sum = 0.0;
+    double weights = 0.0;
+    for (size_t k = first; k < first + count; ++k) {
+      sum += evidence_[k] * parts[k].confidence;
+      weights += evidence_[k];
+    }
+    return sum / weights;
+  }
+
+  PartState partState(const RefinedPart& refined, double evidence) const {
     PartState part;
     part.position = refined.position;
     part.covariance = refined.covariance;
-    const double worst = model_.appearance.weight + model_.appearance.haar_weight;
-    part.confidence = std::clamp(1.0 - refined.appearance / worst, 0.0, 1.0);
+    part.confidence = std::clamp(1.0 - refined.appearance / evidence, 0.0, 1.0);
     part.visible = part.confidence >= model_.search.occluded_below;
     return part;
   }
@@ -417,9 +445,8 @@ class ChainTracker::Implementation {
     const double scale = clampedScale(searched.scale, fit.scale, 0.5 * poses.scale_step);
     segment.image_from_segment = {angle, scale,
                                   fitTranslation(reference, found, weights, angle, scale)};
-    segment.confidence =
-        std::accumulate(weights.begin(), weights.end(), 0.0) / static_cast<double>(weights.size()) -
-        kSmallestWeight;
+    const auto first_part = static_cast<size_t>(segment.first_part);
+    segment.confidence = meanConfidence(state.parts, first_part, reference.size());
   }
 
   ChainModel model_;
@@ -430,6 +457,7 @@ class ChainTracker::Implementation {
   int image_type_;
   ChainState state_;
   std::vector<double> initial_orientations_;  // of the parts
+  std::vector<double> evidence_;              // of the parts
   int frames_lost_ = 0;
   PartCostsWorkspace cost_workspace_;
   TextureCostsWorkspace texture_workspace_;

@@ -17,6 +17,7 @@ ChainModel modelOf(Layout layout, int parts) {
   model.segments[0].name = "seg";
   model.segments[0].layout = layout;
   model.segments[0].parts = parts;
+  model.segments[0].margin = 0.0;
   return model;
 }
 

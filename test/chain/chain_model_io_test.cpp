@@ -40,6 +40,7 @@ segments:
     layout: deformable
     parts: 17
     aspect: 0.2
+    margin: 0.03
     window: 1.5
     stretch_sigma: 0.06
     bend_sigma: 0.25
@@ -74,6 +75,7 @@ ChainModel everyKeyModel() {
   segment.layout = Layout::kDeformable;
   segment.parts = 17;
   segment.aspect = 0.2;
+  segment.margin = 0.03;
   segment.window = 1.5;
   segment.stretch_sigma = 0.06;
   segment.bend_sigma = 0.25;
@@ -113,7 +115,7 @@ TEST(ParseChainModel, noKeyIsUntested) {
       ++keys;
     }
   }
-  EXPECT_EQ(30U, keys);
+  EXPECT_EQ(31U, keys);
 }
 
 TEST(ParseChainModel, keysLeftOutKeepTheirDefaults) {
@@ -233,7 +235,8 @@ TEST(ShippedModels, boxIsNearlyTheDefaultOnAPlane) {
   expected.name = "box";
   expected.segments[0].name = "face";
   expected.segments[0].layout = Layout::kPlanar;
-  expected.segments[0].parts = 20;
+  expected.segments[0].parts = 30;
+  expected.segments[0].scale_sigma = 0.02;
   expected.search.radius = 0.1;
   EXPECT_EQ("", differencesOf(expected, loadChainModel(kShippedModels + "/box.yaml")));
 }
@@ -260,6 +263,7 @@ TEST(ShippedModels, articulatedHasALinkForEveryEdge) {
   segment.name = "link";
   segment.parts = 8;
   segment.aspect = 0.28;
+  segment.margin = 0.0;
   segment.scale_hypotheses = 1;
   segment.scale_step = 0.01;
   EXPECT_EQ("", differencesOf(expected, loadChainModel(kShippedModels + "/articulated.yaml")));

@@ -132,6 +132,7 @@ TEST(ChainTrackerRefuses, imagesUnlikeTheFirstAndStaysAsItWas) {
 TEST(ChainTrackerTakes, theSmallestTargetsAndImages) {
   ChainModel model = modelOf(Layout::kPlanar);
   model.segments[0].parts = 2;
+  model.segments[0].margin = 0.0;
   const cv::Mat image(6, 10, CV_8UC3, cv::Scalar(10, 90, 200));
   ChainTracker tracker(model, image, {{0, 0}, {9, 0}, {9, 5}, {0, 5}});
   const ChainState& state = tracker.update(image);

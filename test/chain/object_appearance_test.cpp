@@ -29,6 +29,7 @@ ChainModel boxModel() {
   ChainModel model;
   model.segments[0].layout = Layout::kPlanar;
   model.segments[0].parts = 6;
+  model.segments[0].margin = 0.0;
   return model;
 }
 

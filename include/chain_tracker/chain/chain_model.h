@@ -23,8 +23,11 @@ enum class Layout {
 struct SegmentModel {
   std::string name = "body";
   Layout layout = Layout::kElongated;
-  int parts = 24;               ///< wanted number of parts; a grid of cells comes as near as it can
-  double aspect = 0.4;          ///< width over length of an elongated object given by its two ends
+  int parts = 24;       ///< wanted number of parts; a grid of cells comes as near as it can
+  double aspect = 0.4;  ///< width over length of an elongated object given by its two ends
+  /// How far a grid of cells reaches beyond the outline, so that windows straddle it: fraction of
+  /// the square root of the area. Means nothing to a deformable segment.
+  double margin = 0.1;
   double window = 1.15;         ///< window side over cell side, or over the step along the polyline
   double stretch_sigma = 0.05;  ///< standard deviation of an edge's length, fraction of the length
   /// Standard deviation of an edge's angular displacement [rad]: from the shape laid out; of a
@@ -56,10 +59,10 @@ struct AppearanceModel {
 
 /// Where and when the object is looked for, and when it counts as found.
 struct SearchModel {
-  double radius = 0.06;         ///< reach of a part between frames, fraction of the image diagonal
-  double lost_below = 0.28;     ///< confidence under which a tracked object becomes LOST
-  double found_above = 0.4;     ///< confidence over which a LOST object is tracked again
-  double occluded_below = 0.4;  ///< confidence under which a part counts as hidden
+  double radius = 0.06;          ///< reach of a part between frames, fraction of the image diagonal
+  double lost_below = 0.15;      ///< confidence under which a tracked object becomes LOST
+  double found_above = 0.25;     ///< confidence over which a LOST object is tracked again
+  double occluded_below = 0.25;  ///< confidence under which a part counts as hidden
 };
 
 /// Several segments are joined end to end at the vertices of the polyline that initialises them.

@@ -16,8 +16,9 @@ struct PartState {
   cv::Point2d position;      ///< centre of the part's window [px]
   double orientation = 0.0;  ///< of its segment; along the chain for deformable ones [rad]
   double side = 0.0;         ///< of the window [px]
-  double confidence = 0.0;   ///< [0, 1]
-  bool visible = false;      ///< false: hidden, the position comes from its neighbours
+  /// [0, 1]: 0 where the window shows nothing of the object.
+  double confidence = 0.0;
+  bool visible = false;  ///< false: hidden, the position comes from its neighbours
   /// Of the position [px^2]; NaN where the search window gives no curvature.
   cv::Matx22d covariance = cv::Matx22d::all(0.0);
 };
@@ -25,8 +26,9 @@ struct PartState {
 struct SegmentState {
   std::string name;
   Similarity image_from_segment;  ///< translation: where the segment's centre is [px]
-  double confidence = 0.0;        ///< [0, 1], mean over its parts
-  int first_part = 0;             ///< index into ChainState::parts
+  /// [0, 1]: mean over its parts, weighted by how much of the object their windows show.
+  double confidence = 0.0;
+  int first_part = 0;  ///< index into ChainState::parts
   int part_count = 0;
 };
 
@@ -48,7 +50,7 @@ struct StepTimes {
 
 struct ChainState {
   TrackingStatus status = TrackingStatus::kInitializing;
-  double confidence = 0.0;  ///< [0, 1], mean over the parts
+  double confidence = 0.0;  ///< [0, 1]: as of a segment, over all parts
   double energy = 0.0;      ///< E of thesis ch. 3.2 at the solution; smaller is better
   std::vector<PartState> parts;
   std::vector<SegmentState> segments;
