@@ -32,6 +32,8 @@ constexpr double kFewestCells = 3.0;
 constexpr double kMostCandidates = 64.0;
 /// Reach of the widest search, fraction of the image diagonal.
 constexpr double kWidestSearch = 0.5;
+/// Between the orientations that are tried for a lost object, at least [rad].
+constexpr double kLeastSweep = 0.4;
 /// Of the refinement around the coarse match [px]: the windows of the coarse lattice are rounded to
 /// whole cells, which moves their optimum however fine the lattice is.
 constexpr int kLeastReach = 4;
@@ -90,6 +92,28 @@ double lengthRatio(const std::vector<cv::Point2d>& reference, const std::vector<
   return found_length / reference_length;
 }
 
+/// All that is where it is, turned about its middle.
+ChainState turnedAbout(ChainState state, double turn) {
+  if (turn == 0.0) return state;
+  cv::Point2d middle;
+  for (const PartState& part : state.parts) {
+    middle += part.position / static_cast<double>(state.parts.size());
+  }
+  const Similarity rotation{turn, 1.0, {}};
+  const auto turned = [&](const cv::Point2d& point) {
+    return middle + rotation.apply(point - middle);
+  };
+  for (PartState& part : state.parts) {
+    part.position = turned(part.position);
+    part.orientation = wrapAngle(part.orientation + turn);
+  }
+  for (SegmentState& segment : state.segments) {
+    Similarity& pose = segment.image_from_segment;
+    pose = {wrapAngle(pose.angle + turn), pose.scale, turned(pose.translation)};
+  }
+  return state;
+}
+
 double clampedTurn(double from, double to, double limit) {
   return wrapAngle(from + std::clamp(wrapAngle(to - from), -limit, limit));
 }
@@ -119,7 +143,8 @@ class ChainTracker::Implementation {
     requireSameKind(image, image_size_, image_type_);
     Stopwatch watch;
     StepTimes times;
-    const std::vector<SegmentPose> previous = posesOf(state_);
+    sought_ = turnedAbout(state_, soughtTurn());
+    const std::vector<SegmentPose> previous = posesOf(sought_);
     const Search coarse = coarseSearch(image, previous);
     times.part_costs = watch.lap();
     const ChainMatch match = matched(coarse, previous);
@@ -179,6 +204,18 @@ class ChainTracker::Implementation {
     return diagonal * std::min(reach, std::max(model_.search.radius, kWidestSearch));
   }
 
+  /// From the last orientation [rad]. What has been lost may have turned meanwhile: every other
+  /// frame looks for it at another orientation, nearer ones first, until all have been seen.
+  double soughtTurn() const {
+    if (frames_lost_ == 0 || frames_lost_ % 2 == 1) return 0.0;
+    const SegmentModel& model = model_.segments.front();
+    const double seen =
+        std::max(kLeastSweep, model.orientation_hypotheses * model.orientation_step);
+    const int turns = static_cast<int>(std::ceil(2.0 * CV_PI / seen));
+    const int i = 1 + (frames_lost_ / 2 - 1) % (turns - 1);
+    return (i % 2 == 0 ? -1.0 : 1.0) * ((i + 1) / 2) * 2.0 * CV_PI / turns;
+  }
+
   double sideOf(size_t m, double scale) const {
     return layout_.segments[m].parts.front().side * scale;
   }
@@ -201,7 +238,7 @@ class ChainTracker::Implementation {
   /// Around where the nodes were last believed to be.
   Search coarseSearch(const cv::Mat& image, const std::vector<SegmentPose>& previous) {
     std::vector<std::vector<cv::Point2d>> centers;
-    for (size_t m = 0; m < segments(); ++m) centers.push_back(nodePositions(m));
+    for (size_t m = 0; m < segments(); ++m) centers.push_back(nodePositions(sought_, m));
     const double radius = searchRadius();
     const int step = coarseStep(smallestSide(previous), radius);
     Search search = candidatesAround(image, centers, previous, step, radius);
@@ -213,23 +250,23 @@ class ChainTracker::Implementation {
     return search;
   }
 
-  /// Of the segment's joints and parts in the last state. Both segments at a joint say the same.
-  std::vector<cv::Point2d> nodePositions(size_t m) const {
+  /// Of the segment's joints and parts. Both segments at a joint say the same.
+  std::vector<cv::Point2d> nodePositions(const ChainState& state, size_t m) const {
     const SegmentLayout& segment = layout_.segments[m];
-    const SegmentState& state = state_.segments[m];
-    const auto first = state_.parts.begin() + state.first_part;
+    const SegmentState& segment_state = state.segments[m];
+    const auto first = state.parts.begin() + segment_state.first_part;
     std::vector<cv::Point2d> positions;
-    if (segment.entry) positions.push_back(jointPosition(m - 1));
-    for (auto part = first; part != first + state.part_count; ++part) {
+    if (segment.entry) positions.push_back(jointPosition(state, m - 1));
+    for (auto part = first; part != first + segment_state.part_count; ++part) {
       positions.push_back(part->position);
     }
-    if (segment.exit) positions.push_back(jointPosition(m));
+    if (segment.exit) positions.push_back(jointPosition(state, m));
     return positions;
   }
 
-  cv::Point2d jointPosition(size_t m) const {
-    return 0.5 * (state_.segments[m].image_from_segment.apply(*layout_.segments[m].exit) +
-                  state_.segments[m + 1].image_from_segment.apply(*layout_.segments[m + 1].entry));
+  cv::Point2d jointPosition(const ChainState& state, size_t m) const {
+    return 0.5 * (state.segments[m].image_from_segment.apply(*layout_.segments[m].exit) +
+                  state.segments[m + 1].image_from_segment.apply(*layout_.segments[m + 1].entry));
   }
 
   /// `centers`: of the nodes of each segment.
@@ -266,7 +303,7 @@ class ChainTracker::Implementation {
 
   void computeCosts(const cv::Mat& image, size_t m, Search& search) {
     const SegmentLayout& segment = layout_.segments[m];
-    const auto first_part = static_cast<size_t>(state_.segments[m].first_part);
+    const auto first_part = static_cast<size_t>(sought_.segments[m].first_part);
     std::vector<RootHistogram> colors;
     std::vector<WindowTexture> textures;
     for (size_t k = first_part; k < first_part + segment.parts.size(); ++k) {
@@ -287,9 +324,9 @@ class ChainTracker::Implementation {
     if (segment.exit) costs.push_back(nothing);
   }
 
-  /// Of a part since the first frame, as last believed [rad].
+  /// Of a part since the first frame, as it is sought [rad].
   double turnOf(size_t part) const {
-    return wrapAngle(state_.parts[part].orientation - initial_orientations_[part]);
+    return wrapAngle(sought_.parts[part].orientation - initial_orientations_[part]);
   }
 
   ChainMatch matched(const Search& search, const std::vector<SegmentPose>& previous) {
@@ -300,13 +337,13 @@ class ChainTracker::Implementation {
   /// Half the coarse steps around the best coarse pose. Where the coarse search has a single
   /// hypothesis, the fit alone turns or rescales the segment, by up to the coarse step.
   static PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
-    const auto fineStep = [](int hypotheses, double step) {
+    const auto fine_step = [](int hypotheses, double step) {
       return hypotheses > 1 ? 0.5 * step : 2.0 * step;
     };
     return {coarse, std::min(3, model.orientation_hypotheses),
-            fineStep(model.orientation_hypotheses, model.orientation_step),
+            fine_step(model.orientation_hypotheses, model.orientation_step),
             std::min(3, model.scale_hypotheses),
-            fineStep(model.scale_hypotheses, model.scale_step)};
+            fine_step(model.scale_hypotheses, model.scale_step)};
   }
 
   static std::vector<SegmentPose> interpolatedPoses(const Search& search, const ChainMatch& match) {
@@ -380,7 +417,7 @@ class ChainTracker::Implementation {
   void relaxSprings() {
     for (size_t m = 0; m < segments(); ++m) {
       if (layout_.segments[m].layout != Layout::kDeformable) continue;
-      const std::vector<cv::Point2d> nodes = nodePositions(m);
+      const std::vector<cv::Point2d> nodes = nodePositions(state_, m);
       const double orientation = state_.segments[m].image_from_segment.angle;
       std::vector<EdgeLayout>& edges = layout_.segments[m].edges;
       for (size_t k = 0; k < edges.size(); ++k) {
@@ -456,6 +493,7 @@ class ChainTracker::Implementation {
   cv::Size image_size_;
   int image_type_;
   ChainState state_;
+  ChainState sought_;                         // around which the next frame is searched
   std::vector<double> initial_orientations_;  // of the parts
   std::vector<double> evidence_;              // of the parts
   int frames_lost_ = 0;

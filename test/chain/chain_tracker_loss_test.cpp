@@ -85,6 +85,21 @@ TEST(ChainTrackerLoss, boxShownAgainElsewhereIsFound) {
   }
 }
 
+/// Every other frame looks at another of 13 orientations.
+TEST(ChainTrackerLoss, boxShownAgainTurnedIsFound) {
+  const DrawnBox box;
+  for (const double turn : {1.0, -1.6, 3.1}) {
+    SCOPED_TRACE(std::to_string(turn) + " rad");
+    const Similarity there{turn, 1.0, kStart.translation + cv::Point2d(20, -10)};
+    ChainTracker tracker = startTracker(box);
+    for (int frame = 0; frame < 3; ++frame) tracker.update(box.background());
+    ASSERT_EQ(TrackingStatus::kLost, tracker.state().status);
+    framesUntil(tracker, box.image(there), TrackingStatus::kTracking, 26);
+    for (int frame = 0; frame < 6; ++frame) tracker.update(box.image(there));
+    EXPECT_LT(largestError(tracker.state(), there), 3.0);
+  }
+}
+
 TEST(ChainTrackerLoss, searchGoesFartherWithEveryFrame) {
   const DrawnBox box;
   const Similarity there{0.0, 1.0, kStart.translation + cv::Point2d(100, 0)};
