@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "chain_tracker/image/multiversion.h"
+#include "reused_plane.h"
 
 namespace chain_tracker {
 namespace {
@@ -47,13 +48,13 @@ void computeWindowHistograms(const cv::Mat& image, const ColorPalette& palette,
   palette.classify(image, lattice.pixels(), workspace.entries);
   workspace.cells.resize(entries);
   roots.resize(entries);
-  for (CellPlane& plane : workspace.cells) plane.create(cells);
+  for (CellPlane& plane : workspace.cells) reuse(plane, cells);
   countCells(workspace.entries, lattice.step, workspace.cells);
   const std::vector<cv::Mat1i>& sums =
       workspace.sums.compute(workspace.cells, lattice.window_cells, lattice.step * lattice.step);
   const auto side = static_cast<float>(lattice.window_cells * lattice.step);
   for (size_t b = 0; b < entries; ++b) {
-    roots[b].create(lattice.size);
+    reuse(roots[b], lattice.size);
     for (int row = 0; row < lattice.size.height; ++row) {
       takeRoots(sums[b][row], side * side, lattice.size.width, roots[b][row]);
     }

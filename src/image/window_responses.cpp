@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "chain_tracker/image/multiversion.h"
+#include "reused_plane.h"
 
 namespace chain_tracker {
 namespace {
@@ -66,7 +67,7 @@ void WindowResponses::splitIntoBytes(const std::vector<CellPlane>& planes, int b
   for (size_t i = 0; i < bytes_.size(); ++i) {
     const CellPlane& plane = planes[i % planes.size()];
     const int shift = kByteBits * static_cast<int>(i / planes.size());
-    bytes_[i].create(plane.size());
+    reuse(bytes_[i], plane.size());
     for (int row = 0; row < plane.rows; ++row) {
       takeByte(plane[row], shift, plane.cols, bytes_[i][row]);
     }
@@ -81,7 +82,7 @@ void WindowResponses::run(Engine& engine, const cv::Size& size) {
   }
   outputs_.clear();
   for (cv::Mat1i& response : responses_) {
-    response.create(size);
+    reuse(response, size);
     outputs_.push_back({response[0], static_cast<std::ptrdiff_t>(response.step1())});
   }
   engine.executor->run(inputs_.data(), static_cast<int>(inputs_.size()), outputs_.data());

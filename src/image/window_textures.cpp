@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "chain_tracker/image/multiversion.h"
+#include "reused_plane.h"
 
 namespace chain_tracker {
 namespace {
@@ -52,7 +53,7 @@ haar::FeatureEnsemble quadrantFeatures(int window_cells) {
 
 /// Sums of the pixels of each cell.
 void sumCells(const cv::Mat1b& pixels, int step, CellPlane& cells) {
-  cells.create(pixels.rows / step, pixels.cols / step);
+  reuse(cells, {pixels.cols / step, pixels.rows / step});
   cells.setTo(0);
   for (int y = 0; y < cells.rows * step; ++y) {
     const uchar* pixel = pixels[y];
@@ -105,7 +106,7 @@ WindowTexture textureOf(float upper_left, float upper_right, float lower_left, f
 void computeWindowTextures(const cv::Mat& image, const WindowLattice& lattice,
                            std::array<cv::Mat1f, kTextureSize>& textures,
                            WindowTexturesWorkspace& workspace) {
-  for (cv::Mat1f& plane : textures) plane.create(lattice.size);
+  for (cv::Mat1f& plane : textures) reuse(plane, lattice.size);
   const int half = (lattice.window_cells / 2) * lattice.step;
   if (half == 0) {
     for (cv::Mat1f& plane : textures) plane.setTo(0.0F);
