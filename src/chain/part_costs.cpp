@@ -25,6 +25,13 @@ void coefficientToCostRow(float* __restrict value, float weight, int columns) {
   }
 }
 
+/// A window's other entries do not touch the part's costs.
+void markEntries(const RootHistogram& part, std::vector<bool>& wanted) {
+  for (size_t entry = 0; entry < part.size(); ++entry) {
+    if (part[entry] != 0.0F) wanted[entry] = true;
+  }
+}
+
 void computePartCost(const std::vector<cv::Mat1f>& roots, const RootHistogram& part,
                      const cv::Point& corner, float weight, cv::Mat1f& cost) {
   for (int row = 0; row < cost.rows; ++row) {
@@ -80,13 +87,19 @@ void computePartCosts(const cv::Mat& image, const ColorPalette& palette,
                       const std::vector<RootHistogram>& parts, const CandidateGrid& grid,
                       double weight, std::vector<cv::Mat1f>& costs, PartCostsWorkspace& workspace) {
   const bool is_sparse = grid.isSparse();
+  const auto size = static_cast<size_t>(palette.size());
   if (!is_sparse) {
-    computeWindowHistograms(image, palette, grid.lattice, workspace.roots, workspace.histograms);
+    std::vector<bool> wanted(size, false);
+    for (const RootHistogram& part : parts) markEntries(part, wanted);
+    computeWindowHistograms(image, palette, grid.lattice, wanted, workspace.roots,
+                            workspace.histograms);
   }
   costs.resize(parts.size());
   for (size_t k = 0; k < parts.size(); ++k) {
     if (is_sparse) {
-      computeWindowHistograms(image, palette, grid.latticeOf(k), workspace.roots,
+      std::vector<bool> wanted(size, false);
+      markEntries(parts[k], wanted);
+      computeWindowHistograms(image, palette, grid.latticeOf(k), wanted, workspace.roots,
                               workspace.histograms);
     }
     const cv::Point corner = is_sparse ? cv::Point(0, 0) : grid.corners[k];
@@ -104,7 +117,8 @@ RootHistogram learnPart(const cv::Mat& image, const ColorPalette& palette,
   lattice.size = {2, 2};
   std::vector<cv::Mat1f> roots;
   WindowHistogramsWorkspace workspace;
-  computeWindowHistograms(image, palette, lattice, roots, workspace);
+  const std::vector<bool> all(static_cast<size_t>(palette.size()), true);
+  computeWindowHistograms(image, palette, lattice, all, roots, workspace);
   const auto right = static_cast<float>(corner.x - lattice.origin.x);
   const auto down = static_cast<float>(corner.y - lattice.origin.y);
   const auto share = [](float root) { return root * root; };

@@ -63,8 +63,9 @@ WindowResponses::Engine& WindowResponses::engineFor(int window_cells, int max_by
 }
 
 void WindowResponses::splitIntoBytes(const std::vector<CellPlane>& planes, int bytes) {
-  bytes_.resize(planes.size() * static_cast<size_t>(bytes));
-  for (size_t i = 0; i < bytes_.size(); ++i) {
+  byte_planes_ = planes.size() * static_cast<size_t>(bytes);
+  bytes_.resize(std::max(bytes_.size(), byte_planes_));
+  for (size_t i = 0; i < byte_planes_; ++i) {
     const CellPlane& plane = planes[i % planes.size()];
     const int shift = kByteBits * static_cast<int>(i / planes.size());
     reuse(bytes_[i], plane.size());
@@ -75,15 +76,16 @@ void WindowResponses::splitIntoBytes(const std::vector<CellPlane>& planes, int b
 }
 
 void WindowResponses::run(Engine& engine, const cv::Size& size) {
-  responses_.resize(bytes_.size() * engine.plan.ensemble().size());
   inputs_.clear();
-  for (const cv::Mat1b& plane : bytes_) {
-    inputs_.push_back({plane.ptr(), static_cast<std::ptrdiff_t>(plane.step1())});
+  for (size_t i = 0; i < byte_planes_; ++i) {
+    inputs_.push_back({bytes_[i].ptr(), static_cast<std::ptrdiff_t>(bytes_[i].step1())});
   }
+  const size_t count = byte_planes_ * engine.plan.ensemble().size();
+  responses_.resize(std::max(responses_.size(), count));
   outputs_.clear();
-  for (cv::Mat1i& response : responses_) {
-    reuse(response, size);
-    outputs_.push_back({response[0], static_cast<std::ptrdiff_t>(response.step1())});
+  for (size_t i = 0; i < count; ++i) {
+    reuse(responses_[i], size);
+    outputs_.push_back({responses_[i][0], static_cast<std::ptrdiff_t>(responses_[i].step1())});
   }
   engine.executor->run(inputs_.data(), static_cast<int>(inputs_.size()), outputs_.data());
 }
@@ -96,11 +98,10 @@ const std::vector<cv::Mat1i>& WindowResponses::compute(const std::vector<CellPla
   run(engine, size);
   // Responses are linear in the cells.
   const size_t wanted = planes.size() * engine.plan.ensemble().size();
-  for (size_t i = wanted; i < responses_.size(); ++i) {
+  for (size_t i = wanted; i < outputs_.size(); ++i) {
     const int shift = kByteBits * static_cast<int>(i / wanted);
     cv::scaleAdd(responses_[i], 1 << shift, responses_[i % wanted], responses_[i % wanted]);
   }
-  responses_.resize(wanted);
   return responses_;
 }
 

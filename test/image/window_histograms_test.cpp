@@ -31,11 +31,15 @@ ColorPalette somePalette(int type) {
   return {image, object, cv::Mat1b(~object), {8, 0.4}};
 }
 
+std::vector<bool> allEntries(const ColorPalette& palette) {
+  return std::vector<bool>(static_cast<size_t>(palette.size()), true);
+}
+
 std::vector<cv::Mat1f> histogramsOf(const cv::Mat& image, const ColorPalette& palette,
                                     const WindowLattice& lattice) {
   std::vector<cv::Mat1f> roots;
   WindowHistogramsWorkspace workspace;
-  computeWindowHistograms(image, palette, lattice, roots, workspace);
+  computeWindowHistograms(image, palette, lattice, allEntries(palette), roots, workspace);
   return roots;
 }
 
@@ -149,12 +153,35 @@ TEST(WindowHistograms, workspaceOfOtherSizesLeavesNoTrace) {
   WindowHistogramsWorkspace workspace;
   const auto check = [&](int type, const ColorPalette& palette, const WindowLattice& lattice) {
     const cv::Mat image = random.noise({30, 25}, type);
-    computeWindowHistograms(image, palette, lattice, roots, workspace);
+    computeWindowHistograms(image, palette, lattice, allEntries(palette), roots, workspace);
     expectEqualsCounting(image, palette, lattice, roots);
   };
   check(CV_8UC3, colors, {{-3, -3}, 2, 5, {14, 12}});
   check(CV_8UC1, greys, {{5, 2}, 1, 3, {4, 4}});
   check(CV_8UC3, colors, {{-9, 10}, 4, 2, {6, 2}});
+}
+
+TEST(WindowHistograms, ofWantedEntriesAreThoseOfAll) {
+  RandomInputs random(8);
+  const ColorPalette palette = somePalette(CV_8UC3);
+  const WindowLattice lattice{{-3, 4}, 2, 3, {9, 7}};
+  const cv::Mat image = random.noise({30, 25}, CV_8UC3);
+  const std::vector<cv::Mat1f> all = histogramsOf(image, palette, lattice);
+  std::vector<cv::Mat1f> roots;
+  WindowHistogramsWorkspace workspace;
+  for (size_t first = 0; first < all.size(); ++first) {
+    std::vector<bool> wanted(all.size(), false);
+    for (size_t entry = first; entry < all.size(); entry += 3) wanted[entry] = true;
+    computeWindowHistograms(image, palette, lattice, wanted, roots, workspace);
+    for (size_t entry = first; entry < all.size(); entry += 3) {
+      cv::Mat1d expected;
+      all[entry].convertTo(expected, CV_64F);
+      EXPECT_EQ("", firstDifference(expected, roots[entry], 0.0)) << entry;
+    }
+  }
+  computeWindowHistograms(image, palette, lattice, std::vector<bool>(all.size(), false), roots,
+                          workspace);
+  EXPECT_EQ(all.size(), roots.size());
 }
 
 TEST(WindowHistograms, writeNothingAroundTheirMaps) {
@@ -169,7 +196,7 @@ TEST(WindowHistograms, writeNothingAroundTheirMaps) {
   }
   const cv::Mat image = random.noise({30, 25}, CV_8UC3);
   WindowHistogramsWorkspace workspace;
-  computeWindowHistograms(image, palette, lattice, roots, workspace);
+  computeWindowHistograms(image, palette, lattice, allEntries(palette), roots, workspace);
   expectEqualsCounting(image, palette, lattice, roots);
   for (size_t b = 0; b < guards.size(); ++b) {
     EXPECT_TRUE(guards[b].holds(roots[b])) << "entry " << b << " was allocated anew";

@@ -38,7 +38,7 @@ CellPlane randomCells(RandomInputs& random, const cv::Size& size, int max_cell) 
 void expectSlowResponses(WindowResponses& windows, const std::vector<CellPlane>& planes,
                          int window_cells, int max_cell) {
   const std::vector<cv::Mat1i>& responses = windows.compute(planes, window_cells, max_cell);
-  ASSERT_EQ(2 * planes.size(), responses.size());
+  ASSERT_LE(2 * planes.size(), responses.size());
   for (size_t i = 0; i < planes.size(); ++i) {
     for (int y = 0; y < planes[i].rows; ++y) {
       for (int x = 0; x < planes[i].cols; ++x) {

@@ -38,15 +38,18 @@ struct WindowHistogramsWorkspace {
   WindowHistogramsWorkspace();
 
   cv::Mat1b entries;
-  std::vector<CellPlane> cells;
+  std::vector<CellPlane> planes;  ///< as many as were ever wanted, and one for what is unwanted
+  std::vector<CellPlane> cells;   ///< those of the wanted entries
   WindowResponses sums;
 };
 
-/// roots[entry](row, column) = sqrt(share of the window's pixels that have that palette entry).
-/// The sums over windows are those of the Haar front end, a plane for every palette entry.
-/// O(pixels + palette size x cells). `roots` gets palette.size() maps of lattice.size.
+/// roots[entry](row, column) = sqrt(share of the window's pixels that have that palette entry), for
+/// the entries that are wanted: maps of lattice.size. The other maps are left as they are.
+/// The sums over windows are those of the Haar front end, a plane for every wanted entry.
+/// `wanted` and `roots` have an element for every palette entry.
+/// O(pixels + wanted entries x cells).
 void computeWindowHistograms(const cv::Mat& image, const ColorPalette& palette,
-                             const WindowLattice& lattice, std::vector<cv::Mat1f>& roots,
-                             WindowHistogramsWorkspace& workspace);
+                             const WindowLattice& lattice, const std::vector<bool>& wanted,
+                             std::vector<cv::Mat1f>& roots, WindowHistogramsWorkspace& workspace);
 
 }  // namespace chain_tracker
