@@ -213,7 +213,8 @@ class ChainTracker::Implementation {
         std::max(kLeastSweep, model.orientation_hypotheses * model.orientation_step);
     const int turns = static_cast<int>(std::ceil(2.0 * CV_PI / seen));
     const int i = 1 + (frames_lost_ / 2 - 1) % (turns - 1);
-    return (i % 2 == 0 ? -1.0 : 1.0) * ((i + 1) / 2) * 2.0 * CV_PI / turns;
+    const int steps = (i % 2 == 0 ? -1 : 1) * ((i + 1) / 2);
+    return steps * 2.0 * CV_PI / turns;
   }
 
   double sideOf(size_t m, double scale) const {

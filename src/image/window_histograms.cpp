@@ -40,6 +40,7 @@ std::vector<CellPlane*> clearedPlanes(const std::vector<bool>& wanted, const cv:
   }
   workspace.cells.assign(planes.begin(), planes.begin() + static_cast<std::ptrdiff_t>(count));
   std::vector<CellPlane*> of_entries;
+  of_entries.reserve(wanted.size());
   auto next = planes.begin();
   for (const bool is_wanted : wanted) of_entries.push_back(is_wanted ? &*next++ : &planes[count]);
   return of_entries;
