@@ -211,7 +211,7 @@ class ChainTracker::Implementation {
     const SegmentModel& model = model_.segments.front();
     const double seen =
         std::max(kLeastSweep, model.orientation_hypotheses * model.orientation_step);
-    const int turns = static_cast<int>(std::ceil(2.0 * CV_PI / seen));
+    const int turns = std::max(2, static_cast<int>(std::ceil(2.0 * CV_PI / seen)));
     const int i = 1 + (frames_lost_ / 2 - 1) % (turns - 1);
     const int steps = (i % 2 == 0 ? -1 : 1) * ((i + 1) / 2);
     return steps * 2.0 * CV_PI / turns;

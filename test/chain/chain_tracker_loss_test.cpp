@@ -100,6 +100,18 @@ TEST(ChainTrackerLoss, boxShownAgainTurnedIsFound) {
   }
 }
 
+TEST(ChainTrackerLoss, hypothesesMayCoverAllOrientations) {
+  const DrawnBox box;
+  ChainModel model;
+  model.segments[0].layout = Layout::kPlanar;
+  model.segments[0].orientation_hypotheses = 7;
+  model.segments[0].orientation_step = 1.0;
+  ChainTracker tracker(model, box.image(kStart), DrawnBox::corners(kStart));
+  for (int frame = 0; frame < 5; ++frame) tracker.update(box.background());
+  EXPECT_EQ("LOST", toString(tracker.state().status));
+  framesUntil(tracker, box.image(kStart), TrackingStatus::kTracking, 3);
+}
+
 TEST(ChainTrackerLoss, searchGoesFartherWithEveryFrame) {
   const DrawnBox box;
   const Similarity there{0.0, 1.0, kStart.translation + cv::Point2d(100, 0)};
