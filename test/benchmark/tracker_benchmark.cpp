@@ -3,7 +3,7 @@
 ///
 /// BM_Bottle: a rendered bottle that shifts, turns and rescales, followed with N parts.
 /// BM_Parts: a textured board of N cells of 24 px each, so that only the number of parts grows.
-/// BM_Square: a board of 150x150 px, followed with 10 parts; BM_Kcf, BM_Csrt: the same by OpenCV.
+/// BM_Square: a board of 150x150 px, followed with 12 parts; BM_Kcf, BM_Csrt: the same by OpenCV.
 /// Each verifies that the tracker follows its object before any time is taken. p50_ms and p99_ms
 /// are of single updates.
 #include <algorithm>
@@ -162,7 +162,7 @@ void BM_Square(benchmark::State& state) {
   ChainModel model;
   model.name = "box";
   model.segments.front().layout = chain_tracker::Layout::kPlanar;
-  model.segments.front().parts = 10;
+  model.segments.front().parts = 12;
   run(state, model, squareClip());
 }
 BENCHMARK(BM_Square)->Unit(benchmark::kMillisecond);
