@@ -18,6 +18,7 @@
 #include "chain_tracker/chain/similarity_fit.h"
 #include "chain_tracker/chain/target_checks.h"
 #include "chain_tracker/chain/texture_costs.h"
+#include "lost_search.h"
 
 namespace chain_tracker {
 namespace {
@@ -32,8 +33,6 @@ constexpr double kFewestCells = 3.0;
 constexpr double kMostCandidates = 64.0;
 /// Reach of the widest search, fraction of the image diagonal.
 constexpr double kWidestSearch = 0.5;
-/// Between the orientations that are tried for a lost object, at least [rad].
-constexpr double kLeastSweep = 0.4;
 /// Of the refinement around the coarse match [px]: the windows of the coarse lattice are rounded to
 /// whole cells, which moves their optimum however fine the lattice is.
 constexpr int kLeastReach = 4;
@@ -92,28 +91,6 @@ double lengthRatio(const std::vector<cv::Point2d>& reference, const std::vector<
   return found_length / reference_length;
 }
 
-/// All that is where it is, turned about its middle.
-ChainState turnedAbout(ChainState state, double turn) {
-  if (turn == 0.0) return state;
-  cv::Point2d middle;
-  for (const PartState& part : state.parts) {
-    middle += part.position / static_cast<double>(state.parts.size());
-  }
-  const Similarity rotation{turn, 1.0, {}};
-  const auto turned = [&](const cv::Point2d& point) {
-    return middle + rotation.apply(point - middle);
-  };
-  for (PartState& part : state.parts) {
-    part.position = turned(part.position);
-    part.orientation = wrapAngle(part.orientation + turn);
-  }
-  for (SegmentState& segment : state.segments) {
-    Similarity& pose = segment.image_from_segment;
-    pose = {wrapAngle(pose.angle + turn), pose.scale, turned(pose.translation)};
-  }
-  return state;
-}
-
 double clampedTurn(double from, double to, double limit) {
   return wrapAngle(from + std::clamp(wrapAngle(to - from), -limit, limit));
 }
@@ -143,7 +120,8 @@ class ChainTracker::Implementation {
     requireSameKind(image, image_size_, image_type_);
     Stopwatch watch;
     StepTimes times;
-    sought_ = turnedAbout(state_, soughtTurn());
+    sought_ = state_;
+    turnAboutMiddle(soughtTurn(model_.segments.front(), frames_lost_), sought_);
     const std::vector<SegmentPose> previous = posesOf(sought_);
     const Search coarse = coarseSearch(image, previous);
     times.part_costs = watch.lap();
@@ -202,19 +180,6 @@ class ChainTracker::Implementation {
     const double diagonal = std::hypot(image_size_.width, image_size_.height);
     const double reach = std::ldexp(model_.search.radius, std::min(frames_lost_, 16));
     return diagonal * std::min(reach, std::max(model_.search.radius, kWidestSearch));
-  }
-
-  /// From the last orientation [rad]. What has been lost may have turned meanwhile: every other
-  /// frame looks for it at another orientation, nearer ones first, until all have been seen.
-  double soughtTurn() const {
-    if (frames_lost_ == 0 || frames_lost_ % 2 == 1) return 0.0;
-    const SegmentModel& model = model_.segments.front();
-    const double seen =
-        std::max(kLeastSweep, model.orientation_hypotheses * model.orientation_step);
-    const int turns = std::max(2, static_cast<int>(std::ceil(2.0 * CV_PI / seen)));
-    const int i = 1 + (frames_lost_ / 2 - 1) % (turns - 1);
-    const int steps = (i % 2 == 0 ? -1 : 1) * ((i + 1) / 2);
-    return steps * 2.0 * CV_PI / turns;
   }
 
   double sideOf(size_t m, double scale) const {

@@ -46,11 +46,16 @@ std::vector<std::string> ModelFolder::names() const {
 
 ChainModel ModelFolder::load(const std::string& name_or_file) const {
   if (isFile(name_or_file)) return loadChainModel(name_or_file);
+  if (path_.empty()) {
+    throw std::invalid_argument("model '" + name_or_file +
+                                "' is not found: no folder of models is known, as ~models_folder "
+                                "is not set and ROS does not "
+                                "find the package chain_tracker (source its setup.bash)");
+  }
   const std::vector<std::string> known = names();
   if (!std::binary_search(known.begin(), known.end(), name_or_file)) {
     throw std::invalid_argument("model '" + name_or_file + "' is unknown, must be auto, a file (*" +
-                                kExtension + ") or one of those in " +
-                                (path_.empty() ? "~models_folder (not set)" : path_) + ": " +
+                                kExtension + ") or one of those in " + path_ + ": " +
                                 joined(known));
   }
   return loadChainModel(path_ + "/" + name_or_file + kExtension);
