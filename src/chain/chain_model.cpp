@@ -84,6 +84,8 @@ void checkAppearance(const AppearanceModel& appearance, FaultList& faults) {
   faults.requireRange("appearance/min_object_share", appearance.min_object_share, 0.0, 0.95);
   faults.requireRange("appearance/weight", appearance.weight, 0.1, 1000.0);
   faults.requireRange("appearance/haar_weight", appearance.haar_weight, 0.0, 1000.0);
+  faults.requireRange("appearance/outlier_below", appearance.outlier_below, 0.0, 1.0);
+  faults.requireRange("appearance/outlier_slope", appearance.outlier_slope, 0.0, 1.0);
 }
 
 void checkSearch(const SearchModel& search, FaultList& faults) {
@@ -91,6 +93,8 @@ void checkSearch(const SearchModel& search, FaultList& faults) {
   faults.requireRange("search/lost_below", search.lost_below, 0.0, 1.0);
   faults.requireRange("search/found_above", search.found_above, 0.0, 1.0);
   faults.requireRange("search/occluded_below", search.occluded_below, 0.0, 1.0);
+  faults.requireRange("search/travel_weight", search.travel_weight, 0.0, 100.0);
+  faults.requireRange("search/doubt_below", search.doubt_below, 0.0, 1.0);
   if (search.found_above < search.lost_below) {
     std::ostringstream fault;
     fault << "search/found_above is " << search.found_above

@@ -140,14 +140,18 @@ void readAppearance(const Reader& reader, AppearanceModel& appearance) {
                   {"ring", into(appearance.ring)},
                   {"min_object_share", into(appearance.min_object_share)},
                   {"weight", into(appearance.weight)},
-                  {"haar_weight", into(appearance.haar_weight)}});
+                  {"haar_weight", into(appearance.haar_weight)},
+                  {"outlier_below", into(appearance.outlier_below)},
+                  {"outlier_slope", into(appearance.outlier_slope)}});
 }
 
 void readSearch(const Reader& reader, SearchModel& search) {
   reader.readMap({{"radius", into(search.radius)},
                   {"lost_below", into(search.lost_below)},
                   {"found_above", into(search.found_above)},
-                  {"occluded_below", into(search.occluded_below)}});
+                  {"occluded_below", into(search.occluded_below)},
+                  {"travel_weight", into(search.travel_weight)},
+                  {"doubt_below", into(search.doubt_below)}});
 }
 
 void readSegments(const Reader& reader, std::vector<SegmentModel>& segments) {

@@ -60,11 +60,15 @@ appearance:
   min_object_share: 0.375
   weight: 5.5
   haar_weight: 2.25
+  outlier_below: 0.375
+  outlier_slope: 0.75
 search:
   radius: 0.09
   lost_below: 0.125
   found_above: 0.625
   occluded_below: 0.3
+  travel_weight: 0.625
+  doubt_below: 0.875
 )";
 
 ChainModel everyKeyModel() {
@@ -88,8 +92,8 @@ ChainModel everyKeyModel() {
   model.segments.emplace_back();
   model.segments[1].name = "nozzle";
   model.joints = {{-0.5, 1.5}};
-  model.appearance = {31, 0.75, 0.375, 5.5, 2.25};
-  model.search = {0.09, 0.125, 0.625, 0.3};
+  model.appearance = {31, 0.75, 0.375, 5.5, 2.25, 0.375, 0.75};
+  model.search = {0.09, 0.125, 0.625, 0.3, 0.625, 0.875};
   return model;
 }
 
@@ -115,7 +119,7 @@ TEST(ParseChainModel, noKeyIsUntested) {
       ++keys;
     }
   }
-  EXPECT_EQ(31U, keys);
+  EXPECT_EQ(35U, keys);
 }
 
 TEST(ParseChainModel, keysLeftOutKeepTheirDefaults) {

@@ -57,6 +57,7 @@ std::vector<Limits> allLimits() {
   return {
       segmentLimits("parts", &SegmentModel::parts, 2, 200),
       segmentLimits("aspect", &SegmentModel::aspect, 0.001, 1.0),
+      segmentLimits("margin", &SegmentModel::margin, 0.0, 1.0),
       segmentLimits("window", &SegmentModel::window, 0.2, 10.0),
       segmentLimits("stretch_sigma", &SegmentModel::stretch_sigma, 0.005, 1.0),
       segmentLimits("bend_sigma", &SegmentModel::bend_sigma, 0.005, 3.0),
@@ -74,10 +75,15 @@ std::vector<Limits> allLimits() {
       appearanceLimits("ring", &AppearanceModel::ring, 0.05, 3.0),
       appearanceLimits("min_object_share", &AppearanceModel::min_object_share, 0.0, 0.95),
       appearanceLimits("weight", &AppearanceModel::weight, 0.1, 1000.0),
+      appearanceLimits("haar_weight", &AppearanceModel::haar_weight, 0.0, 1000.0),
+      appearanceLimits("outlier_below", &AppearanceModel::outlier_below, 0.0, 1.0),
+      appearanceLimits("outlier_slope", &AppearanceModel::outlier_slope, 0.0, 1.0),
       searchLimits("radius", &SearchModel::radius, 0.002, 1.0),
       searchLimits("lost_below", &SearchModel::lost_below, 0.0, 1.0),
       searchLimits("found_above", &SearchModel::found_above, 0.0, 1.0),
       searchLimits("occluded_below", &SearchModel::occluded_below, 0.0, 1.0),
+      searchLimits("travel_weight", &SearchModel::travel_weight, 0.0, 100.0),
+      searchLimits("doubt_below", &SearchModel::doubt_below, 0.0, 1.0),
   };
 }
 

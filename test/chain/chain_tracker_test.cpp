@@ -187,6 +187,8 @@ TEST(ChainTracker, singlePoseTurnsAndRescalesByOneStepAtMost) {
   segment.orientation_hypotheses = segment.scale_hypotheses = 1;
   segment.orientation_step = 0.02;
   segment.scale_step = 0.01;
+  model.appearance.outlier_slope = 1.0;
+  model.search.doubt_below = model.search.travel_weight = 0.0;
   const std::vector<cv::Point2d> line = {kStart.apply({-40, 0}), kStart.apply({40, 0})};
   for (double change : {0.1, -0.1}) {
     ChainTracker tracker(model, box.image(kStart), line);

@@ -39,6 +39,8 @@ class Differences {
     compare("appearance/min_object_share", expected.min_object_share, actual.min_object_share);
     compare("appearance/weight", expected.weight, actual.weight);
     compare("appearance/haar_weight", expected.haar_weight, actual.haar_weight);
+    compare("appearance/outlier_below", expected.outlier_below, actual.outlier_below);
+    compare("appearance/outlier_slope", expected.outlier_slope, actual.outlier_slope);
   }
 
   void compare(const SearchModel& expected, const SearchModel& actual) {
@@ -46,6 +48,8 @@ class Differences {
     compare("search/lost_below", expected.lost_below, actual.lost_below);
     compare("search/found_above", expected.found_above, actual.found_above);
     compare("search/occluded_below", expected.occluded_below, actual.occluded_below);
+    compare("search/travel_weight", expected.travel_weight, actual.travel_weight);
+    compare("search/doubt_below", expected.doubt_below, actual.doubt_below);
   }
 
   std::string text() const { return text_.str(); }

@@ -55,6 +55,11 @@ struct AppearanceModel {
   double min_object_share = 0.5;  ///< a colour rarer on the object than this becomes "other"
   double weight = 8.0;            ///< of the colour cost against the springs
   double haar_weight = 4.0;       ///< of the texture cost against the springs; 0: colour alone
+  /// Share of its usual confidence below which a part is taken to show something else.
+  double outlier_below = 0.5;
+  /// Slope of its cost from there on, of what it is before: how much what covers a part, or looks
+  /// otherwise than it, still pulls it about. 1: as much as everything.
+  double outlier_slope = 0.5;
 };
 
 /// Where and when the object is looked for, and when it counts as found.
@@ -63,6 +68,11 @@ struct SearchModel {
   double lost_below = 0.15;      ///< confidence under which a tracked object becomes LOST
   double found_above = 0.25;     ///< confidence over which a LOST object is tracked again
   double occluded_below = 0.25;  ///< confidence under which a part counts as hidden
+  /// Cost of a part that moves by `radius` between two frames: keeps what is hidden in place.
+  double travel_weight = 0.3;
+  /// Share of the usual confidence below which the object is looked for elsewhere, too, and has to
+  /// have there; 0: never.
+  double doubt_below = 0.7;
 };
 
 /// Several segments are joined end to end at the vertices of the polyline that initialises them.

@@ -31,7 +31,7 @@ struct PoseGrid {
 };
 
 /// Cost of turning and rescaling from the previous frame's pose (temporal term of thesis ch.
-/// 3.2.3). There is none on displacement: slow and fast shifts are equally likely.
+/// 3.2.3). Displacement has its own: SearchModel::travel_weight.
 double temporalCost(const SegmentModel& model, const SegmentPose& previous,
                     const SegmentPose& pose);
 

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_search.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "chain_tracker/chain/similarity_fit.h"
+#include "robust_costs.h"
+
+namespace chain_tracker {
+namespace {
+
+/// Cells of the coarse lattice along a part's window.
+constexpr double kCellsPerWindow = 8.0;
+/// Steps of the refined lattice in one of the coarse lattice, at most.
+constexpr int kRefinedSteps = 4;
+/// Cells left along a window when a wide search makes the lattice coarser.
+constexpr double kFewestCells = 3.0;
+/// Candidates along a side of the search window up to which the lattice stays fine.
+constexpr double kMostCandidates = 64.0;
+/// Steps to each side in the widest search, which bounds its time: what is thin, and so has a fine
+/// lattice, is not looked for all over the image.
+constexpr double kWidestReach = 64.0;
+/// Of the refinement around the coarse match [px]: the windows of the coarse lattice are rounded to
+/// whole cells, which moves their optimum however fine the lattice is.
+constexpr int kLeastReach = 4;
+/// Keeps the fit defined when no part is seen.
+constexpr double kSmallestWeight = 1e-3;
+
+class Stopwatch {
+ public:
+  /// Time since the last lap or construction [ms].
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double, std::milli> elapsed = now - start_;
+    start_ = now;
+    return elapsed.count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::vector<SegmentPose> posesOf(const ChainState& state) {
+  std::vector<SegmentPose> poses;
+  for (const SegmentState& segment : state.segments) {
+    poses.push_back({segment.image_from_segment.angle, segment.image_from_segment.scale});
+  }
+  return poses;
+}
+
+/// An eighth of a window, or coarser where a wide search would have too many candidates.
+int coarseStep(double side, double radius) {
+  const double fine = side / kCellsPerWindow;
+  const double affordable = std::min(2.0 * radius / kMostCandidates, side / kFewestCells);
+  return std::max(1, static_cast<int>(std::lround(std::max(fine, affordable))));
+}
+
+/// The costs of the parts' states are still to be computed; a joint at the end lies on the
+/// lattice of its segment.
+SegmentCandidates candidatesOf(const SegmentLayout& segment, const CandidateGrid& grid,
+                               const cv::Point2d& end) {
+  SegmentCandidates candidates;
+  candidates.step = grid.lattice.step;
+  candidates.states = grid.states;
+  if (segment.entry) candidates.origins.emplace_back();
+  for (size_t k = 0; k < segment.parts.size(); ++k) {
+    candidates.origins.push_back(grid.positionOf(k, {0.0, 0.0}));
+  }
+  if (segment.exit) candidates.origins.push_back(grid.originAround(end));
+  return candidates;
+}
+
+/// Half the coarse steps around the best coarse pose. Where the coarse search has a single
+/// hypothesis, the fit alone turns or rescales the segment, by up to the coarse step.
+PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
+  const auto fine_step = [](int hypotheses, double step) {
+    return hypotheses > 1 ? 0.5 * step : 2.0 * step;
+  };
+  return {coarse, std::min(3, model.orientation_hypotheses),
+          fine_step(model.orientation_hypotheses, model.orientation_step),
+          std::min(3, model.scale_hypotheses), fine_step(model.scale_hypotheses, model.scale_step)};
+}
+
+std::vector<SegmentPose> interpolatedPoses(const std::vector<PoseGrid>& grids,
+                                           const ChainMatch& match) {
+  std::vector<SegmentPose> poses;
+  for (size_t m = 0; m < grids.size(); ++m) {
+    poses.push_back(interpolatePose(grids[m], match.segments[m].energies));
+  }
+  return poses;
+}
+
+/// Length of the chain found over that of the reference. What coils up comes nearer to its middle
+/// without becoming shorter: a similarity would take that for a smaller scale.
+double lengthRatio(const std::vector<cv::Point2d>& reference, const std::vector<cv::Point2d>& found,
+                   const std::vector<double>& weights) {
+  double reference_length = 0.0;
+  double found_length = 0.0;
+  for (size_t k = 1; k < found.size(); ++k) {
+    const double weight = std::min(weights[k - 1], weights[k]);
+    reference_length += weight * cv::norm(reference[k] - reference[k - 1]);
+    found_length += weight * cv::norm(found[k] - found[k - 1]);
+  }
+  return found_length / reference_length;
+}
+
+double clampedTurn(double from, double to, double limit) {
+  return wrapAngle(from + std::clamp(wrapAngle(to - from), -limit, limit));
+}
+
+double clampedScale(double from, double to, double limit) {
+  return from * std::exp(std::clamp(std::log(to / from), -limit, limit));
+}
+
+}  // namespace
+
+ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const ChainLayout& layout,
+                         const ChainState& initial)
+    : model_(model),
+      layout_(layout.segments),
+      appearance_(image, layout, model.appearance),
+      expectations_(appearance_, model.appearance, initial.parts.size()) {
+  for (const PartState& part : initial.parts) initial_orientations_.push_back(part.orientation);
+}
+
+ChainState ChainSearch::find(const cv::Mat& image, const ChainState& sought,
+                             const SearchRange& range) {
+  Stopwatch watch;
+  sought_ = sought;
+  previous_ = posesOf(sought);
+  range_ = range;
+  relaxSprings(sought);
+  ChainState found = sought;
+  found.confidence = 0.0;
+  found.times = StepTimes();
+  const Candidates coarse = coarseCandidates(image);
+  found.times.part_costs = watch.lap();
+  const ChainMatch match = matched(coarse);
+  found.times.matching = watch.lap();
+  if (!match.found()) return found;
+  const Candidates fine = fineCandidates(image, coarse, match);
+  const ChainMatch refined = matched(fine);
+  if (refined.found()) {
+    const std::vector<SegmentPose> poses = interpolatedPoses(fine.poses, refined);
+    fillIn(refineChain(layout_, poses, fine.segments, solver_workspace_), poses, found);
+    found.energy = refined.energy;
+  }
+  found.times.refinement = watch.lap();
+  return found;
+}
+
+double ChainSearch::sideOf(size_t m, double scale) const {
+  return layout_[m].parts.front().side * scale;
+}
+
+double ChainSearch::smallestSide(const std::vector<SegmentPose>& poses) const {
+  double smallest = sideOf(0, poses[0].scale);
+  for (size_t m = 1; m < segments(); ++m) {
+    smallest = std::min(smallest, sideOf(m, poses[m].scale));
+  }
+  return smallest;
+}
+
+/// Of the segment's joints and parts. Both segments at a joint say the same.
+std::vector<cv::Point2d> ChainSearch::nodePositions(const ChainState& state, size_t m) const {
+  const SegmentLayout& segment = layout_[m];
+  const SegmentState& segment_state = state.segments[m];
+  const auto first = state.parts.begin() + segment_state.first_part;
+  std::vector<cv::Point2d> positions;
+  if (segment.entry) positions.push_back(jointPosition(state, m - 1));
+  for (auto part = first; part != first + segment_state.part_count; ++part) {
+    positions.push_back(part->position);
+  }
+  if (segment.exit) positions.push_back(jointPosition(state, m));
+  return positions;
+}
+
+cv::Point2d ChainSearch::jointPosition(const ChainState& state, size_t m) const {
+  return 0.5 * (state.segments[m].image_from_segment.apply(*layout_[m].exit) +
+                state.segments[m + 1].image_from_segment.apply(*layout_[m + 1].entry));
+}
+
+/// What bends anywhere has no shape of its own: its springs rest where they are sought, so
+/// that it may bend as far as it likes, but not at once.
+void ChainSearch::relaxSprings(const ChainState& state) {
+  for (size_t m = 0; m < segments(); ++m) {
+    if (layout_[m].layout != Layout::kDeformable) continue;
+    const std::vector<cv::Point2d> nodes = nodePositions(state, m);
+    const double orientation = state.segments[m].image_from_segment.angle;
+    std::vector<EdgeLayout>& edges = layout_[m].edges;
+    for (size_t k = 0; k < edges.size(); ++k) {
+      edges[k].direction = wrapAngle(directionOf(nodes[k + 1] - nodes[k]) - orientation);
+    }
+  }
+}
+
+/// Around where the nodes are believed to be.
+ChainSearch::Candidates ChainSearch::coarseCandidates(const cv::Mat& image) {
+  NodePositions centers;
+  for (size_t m = 0; m < segments(); ++m) centers.push_back(nodePositions(sought_, m));
+  const int step = coarseStep(smallestSide(previous_), range_.radius);
+  const double radius = std::min(range_.radius, kWidestReach * step);
+  Candidates coarse = candidatesAround(image, centers, previous_, step, radius);
+  for (size_t m = 0; m < segments(); ++m) {
+    const SegmentModel& model = model_.segments[m];
+    coarse.poses.push_back({previous_[m], model.orientation_hypotheses, model.orientation_step,
+                            model.scale_hypotheses, model.scale_step});
+  }
+  return coarse;
+}
+
+/// Up to a coarse step around the coarse match.
+ChainSearch::Candidates ChainSearch::fineCandidates(const cv::Mat& image, const Candidates& coarse,
+                                                    const ChainMatch& match) {
+  const std::vector<SegmentPose> poses = interpolatedPoses(coarse.poses, match);
+  NodePositions centers(segments());
+  for (size_t m = 0; m < segments(); ++m) {
+    const std::vector<cv::Point>& states = match.segments[m].states;
+    for (size_t k = 0; k < states.size(); ++k) {
+      centers[m].push_back(coarse.segments[m].positionOf(k, cv::Point2d(states[k])));
+    }
+  }
+  const int coarse_step = coarse.segments.front().step;
+  const int step = (coarse_step + kRefinedSteps - 1) / kRefinedSteps;
+  const int reach = std::max(kLeastReach, coarse_step + step);
+  Candidates fine = candidatesAround(image, centers, poses, step, reach);
+  for (size_t m = 0; m < segments(); ++m) {
+    fine.poses.push_back(finePoses(model_.segments[m], poses[m]));
+  }
+  return fine;
+}
+
+ChainSearch::Candidates ChainSearch::candidatesAround(const cv::Mat& image,
+                                                      const NodePositions& centers,
+                                                      const std::vector<SegmentPose>& poses,
+                                                      int step, double radius) {
+  Candidates candidates;
+  for (size_t m = 0; m < segments(); ++m) {
+    const SegmentLayout& segment = layout_[m];
+    const auto first = centers[m].begin() + (segment.entry ? 1 : 0);
+    const std::vector<cv::Point2d> parts(first, first + static_cast<int>(segment.parts.size()));
+    candidates.grids.push_back(makeCandidateGrid(parts, sideOf(m, poses[m].scale), step, radius));
+    candidates.segments.push_back(candidatesOf(segment, candidates.grids[m], centers[m].back()));
+    if (m > 0) {
+      candidates.segments[m].origins.front() = candidates.segments[m - 1].origins.back();
+    }
+    computeCosts(image, m, candidates);
+  }
+  return candidates;
+}
+
+void ChainSearch::computeCosts(const cv::Mat& image, size_t m, Candidates& candidates) {
+  const SegmentLayout& segment = layout_[m];
+  const CandidateGrid& grid = candidates.grids[m];
+  const auto first_part = static_cast<size_t>(sought_.segments[m].first_part);
+  std::vector<RootHistogram> colors;
+  std::vector<WindowTexture> textures;
+  for (size_t k = first_part; k < first_part + segment.parts.size(); ++k) {
+    const PartAppearance& part = appearance_.part(k, turnOf(k));
+    colors.push_back(part.colors);
+    textures.push_back(part.texture);
+  }
+  std::vector<cv::Mat1f>& appearance = candidates.segments[m].appearance;
+  const AppearanceModel& model = model_.appearance;
+  computePartCosts(image, appearance_.palette(), colors, grid, model.weight, appearance,
+                   cost_workspace_);
+  if (model.haar_weight > 0.0) {
+    addTextureCosts(image, textures, grid, model.haar_weight, appearance, texture_workspace_);
+  }
+  std::vector<cv::Mat1f>& costs = candidates.segments[m].costs;
+  for (const cv::Mat1f& map : appearance) costs.push_back(map.clone());
+  robustify(m, grid, costs);
+  const cv::Mat1f nothing(grid.states, 0.0F);
+  for (std::vector<cv::Mat1f>* maps : {&appearance, &costs}) {
+    if (segment.entry) maps->insert(maps->begin(), nothing);
+    if (segment.exit) maps->push_back(nothing);
+  }
+}
+
+void ChainSearch::robustify(size_t m, const CandidateGrid& grid,
+                            std::vector<cv::Mat1f>& costs) const {
+  const auto first_part = static_cast<size_t>(sought_.segments[m].first_part);
+  const AppearanceModel& model = model_.appearance;
+  for (size_t k = 0; k < costs.size(); ++k) {
+    const size_t part = first_part + k;
+    softenCosts(expectations_.outlierCost(part, model.outlier_below), model.outlier_slope,
+                costs[k]);
+    if (range_.travel_weight > 0.0) {
+      addTravelCosts(grid.positionOf(k, {0.0, 0.0}), grid.lattice.step,
+                     sought_.parts[part].position, range_.travel_weight, costs[k]);
+    }
+  }
+}
+
+/// Of a part since the first frame, as it is sought [rad].
+double ChainSearch::turnOf(size_t part) const {
+  return wrapAngle(sought_.parts[part].orientation - initial_orientations_[part]);
+}
+
+ChainMatch ChainSearch::matched(const Candidates& candidates) {
+  return matchChain({layout_, model_, previous_, candidates.poses, candidates.segments},
+                    solver_workspace_);
+}
+
+void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,
+                         const std::vector<SegmentPose>& poses, ChainState& found) const {
+  if (parts.empty()) return;
+  for (size_t k = 0; k < parts.size(); ++k) {
+    PartState& part = found.parts[k];
+    part.position = parts[k].position;
+    part.covariance = parts[k].covariance;
+    part.confidence = expectations_.confidence(k, parts[k].appearance);
+    part.visible = part.confidence >= model_.search.occluded_below;
+  }
+  found.confidence = expectations_.meanConfidence(found.parts, 0, parts.size());
+  for (size_t m = 0; m < segments(); ++m) fitSegment(m, poses[m], found);
+}
+
+/// Least squares over the parts, within the resolution of the poses searched: beyond it, the
+/// energy knows better than the parts, which lean inwards wherever the object is uniform.
+void ChainSearch::fitSegment(size_t m, const SegmentPose& searched, ChainState& state) const {
+  SegmentState& segment = state.segments[m];
+  std::vector<cv::Point2d> reference;
+  std::vector<cv::Point2d> found;
+  std::vector<double> weights;
+  for (size_t k = 0; k < layout_[m].parts.size(); ++k) {
+    const PartState& part = state.parts[static_cast<size_t>(segment.first_part) + k];
+    reference.push_back(layout_[m].parts[k].position);
+    found.push_back(part.position);
+    weights.push_back(part.confidence + kSmallestWeight);
+  }
+  Similarity fit = fitSimilarity(reference, found, weights);
+  if (layout_[m].layout == Layout::kDeformable) {
+    fit.scale = lengthRatio(reference, found, weights);
+  }
+  const PoseGrid poses = finePoses(model_.segments[m], searched);
+  const double angle = clampedTurn(searched.orientation, fit.angle, 0.5 * poses.orientation_step);
+  const double scale = clampedScale(searched.scale, fit.scale, 0.5 * poses.scale_step);
+  segment.image_from_segment = {angle, scale,
+                                fitTranslation(reference, found, weights, angle, scale)};
+  const auto first_part = static_cast<size_t>(segment.first_part);
+  segment.confidence = expectations_.meanConfidence(state.parts, first_part, reference.size());
+}
+
+}  // namespace chain_tracker

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The best chain in one image, around where it is sought (thesis ch. 3.4): coarse candidates of
+/// every part, all poses matched at once, then the same around the winner at full resolution.
+#pragma once
+
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "chain_tracker/chain/chain_layout.h"
+#include "chain_tracker/chain/chain_matcher.h"
+#include "chain_tracker/chain/chain_model.h"
+#include "chain_tracker/chain/chain_refinement.h"
+#include "chain_tracker/chain/chain_solver.h"
+#include "chain_tracker/chain/chain_state.h"
+#include "chain_tracker/chain/object_appearance.h"
+#include "chain_tracker/chain/part_costs.h"
+#include "chain_tracker/chain/pose_grid.h"
+#include "chain_tracker/chain/texture_costs.h"
+#include "part_expectations.h"
+
+namespace chain_tracker {
+
+struct SearchRange {
+  double radius = 0.0;         ///< of a part around where it is sought [px]
+  double travel_weight = 0.0;  ///< cost of a part for every pixel from there
+};
+
+class ChainSearch {
+ public:
+  /// `initial`: the object in the first frame, `image_from_segment` and parts only.
+  ChainSearch(const ChainModel& model, const cv::Mat& image, const ChainLayout& layout,
+              const ChainState& initial);
+
+  const PartExpectations& expectations() const { return expectations_; }
+  /// To be called with every state in which the object was found.
+  void observe(const ChainState& state) { expectations_.observe(state); }
+
+  /// `sought` moved to the best chain: parts, poses, confidence, energy and times; its status,
+  /// outline and points are those of `sought`. Confidence 0 if the springs allow no chain.
+  /// Time as of ChainTracker::update().
+  ChainState find(const cv::Mat& image, const ChainState& sought, const SearchRange& range);
+
+ private:
+  /// What is looked at: one entry a segment.
+  struct Candidates {
+    std::vector<CandidateGrid> grids;
+    std::vector<SegmentCandidates> segments;
+    std::vector<PoseGrid> poses;
+  };
+  /// Of the nodes of each segment.
+  using NodePositions = std::vector<std::vector<cv::Point2d>>;
+
+  size_t segments() const { return layout_.size(); }
+  double sideOf(size_t m, double scale) const;
+  double smallestSide(const std::vector<SegmentPose>& poses) const;
+  cv::Point2d jointPosition(const ChainState& state, size_t m) const;
+  std::vector<cv::Point2d> nodePositions(const ChainState& state, size_t m) const;
+  void relaxSprings(const ChainState& state);
+
+  Candidates coarseCandidates(const cv::Mat& image);
+  Candidates fineCandidates(const cv::Mat& image, const Candidates& coarse,
+                            const ChainMatch& match);
+  Candidates candidatesAround(const cv::Mat& image, const NodePositions& centers,
+                              const std::vector<SegmentPose>& poses, int step, double radius);
+  void computeCosts(const cv::Mat& image, size_t m, Candidates& candidates);
+  void robustify(size_t m, const CandidateGrid& grid, std::vector<cv::Mat1f>& costs) const;
+  double turnOf(size_t part) const;
+  ChainMatch matched(const Candidates& candidates);
+  void fillIn(const std::vector<RefinedPart>& parts, const std::vector<SegmentPose>& poses,
+              ChainState& found) const;
+  void fitSegment(size_t m, const SegmentPose& searched, ChainState& state) const;
+
+  ChainModel model_;
+  std::vector<SegmentLayout> layout_;
+  ObjectAppearance appearance_;
+  PartExpectations expectations_;
+  std::vector<double> initial_orientations_;  // of the parts
+  // Of the search that goes on.
+  ChainState sought_;
+  std::vector<SegmentPose> previous_;
+  SearchRange range_;
+
+  PartCostsWorkspace cost_workspace_;
+  TextureCostsWorkspace texture_workspace_;
+  ChainSolverWorkspace solver_workspace_;
+};
+
+}  // namespace chain_tracker

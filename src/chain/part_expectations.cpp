@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "part_expectations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace chain_tracker {
+namespace {
+
+/// Of a part whose window shows nothing of the object, of the largest cost.
+constexpr double kLeastEvidence = 0.1;
+/// Share of the new in what is usual, per frame. A part comes to look different within some ten
+/// frames; an object in doubt for a hundred is still in doubt.
+constexpr double kRise = 0.1;
+constexpr double kPartSinks = 0.05;
+constexpr double kObjectSinks = 0.003;
+
+/// What a part would cost on a flat piece of background: little if its own window shows little
+/// else, so that it cannot tell whether the object is there.
+double evidenceOf(const PartAppearance& learned, const AppearanceModel& model) {
+  const double other = learned.colors[ColorPalette::kOther];
+  const double colors = std::sqrt(std::max(0.0, 1.0 - other));
+  const double texture =
+      0.5 * std::sqrt(std::inner_product(learned.texture.begin(), learned.texture.end(),
+                                         learned.texture.begin(), 0.0));
+  const double least = kLeastEvidence * (model.weight + model.haar_weight);
+  return std::max(least, model.weight * colors + model.haar_weight * texture);
+}
+
+double followed(double usual, double now, double sinks) {
+  return usual + (now > usual ? kRise : sinks) * (now - usual);
+}
+
+}  // namespace
+
+PartExpectations::PartExpectations(ObjectAppearance& appearance, const AppearanceModel& model,
+                                   size_t parts)
+    : usual_(parts, 1.0) {
+  for (size_t k = 0; k < parts; ++k) {
+    evidence_.push_back(evidenceOf(appearance.part(k, 0.0), model));
+  }
+}
+
+double PartExpectations::confidence(size_t part, double cost) const {
+  return std::clamp(1.0 - cost / evidence_[part], 0.0, 1.0);
+}
+
+double PartExpectations::outlierCost(size_t part, double share) const {
+  return evidence_[part] * (1.0 - share * usual_[part]);
+}
+
+double PartExpectations::meanConfidence(const std::vector<PartState>& parts, size_t first,
+                                        size_t count) const {
+  double sum = 0.0;
+  double weights = 0.0;
+  for (size_t k = first; k < first + count; ++k) {
+    sum += evidence_[k] * parts[k].confidence;
+    weights += evidence_[k];
+  }
+  return sum / weights;
+}
+
+void PartExpectations::observe(const ChainState& state) {
+  for (size_t k = 0; k < usual_.size(); ++k) {
+    usual_[k] = followed(usual_[k], state.parts[k].confidence, kPartSinks);
+  }
+  usual_of_object_ =
+      has_observed_ ? followed(usual_of_object_, state.confidence, kObjectSinks) : state.confidence;
+  has_observed_ = true;
+}
+
+}  // namespace chain_tracker

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What the parts of an object can be expected to show: how much they can tell at all, and how sure
+/// they were lately.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "chain_tracker/chain/chain_state.h"
+#include "chain_tracker/chain/object_appearance.h"
+
+namespace chain_tracker {
+
+class PartExpectations {
+ public:
+  /// Of `parts` parts.
+  PartExpectations(ObjectAppearance& appearance, const AppearanceModel& model, size_t parts);
+
+  size_t parts() const { return evidence_.size(); }
+
+  /// Confidence of a part whose window costs `cost`, in [0, 1]: 0 where it costs what a flat piece
+  /// of background would.
+  double confidence(size_t part, double cost) const;
+
+  /// Cost from which on a part's window is taken for that of something else: its confidence is
+  /// then `share` of what it usually is.
+  double outlierCost(size_t part, double share) const;
+
+  /// Mean confidence of `count` parts, weighted by what they can tell.
+  double meanConfidence(const std::vector<PartState>& parts, size_t first, size_t count) const;
+
+  /// Of the object while it was believed in, slow to sink; 1 before anything was observed.
+  double usualConfidence() const { return usual_of_object_; }
+
+  /// Takes in what a frame in which the object was found has shown.
+  void observe(const ChainState& state);
+
+ private:
+  std::vector<double> evidence_;  ///< of each part: what it would cost on a flat background
+  std::vector<double> usual_;     ///< confidence of each part
+  double usual_of_object_ = 1.0;
+  bool has_observed_ = false;
+};
+
+}  // namespace chain_tracker
