@@ -26,6 +26,9 @@ constexpr double kWidestReach = 64.0;
 /// Of the refinement around the coarse match [px]: the windows of the coarse lattice are rounded to
 /// whole cells, which moves their optimum however fine the lattice is.
 constexpr int kLeastReach = 4;
+/// Of a cell of a grid, in what its chain alone would leave: the chain knows two of its neighbours,
+/// the shape holds it on all sides. Calibrated on rendered scenes.
+constexpr double kCellVariance = 0.25;
 /// Keeps the fit defined when no part is seen.
 constexpr double kSmallestWeight = 1e-3;
 
@@ -314,6 +317,13 @@ void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,
     part.covariance = parts[k].covariance;
     part.confidence = expectations_.confidence(k, parts[k].appearance);
     part.visible = part.confidence >= model_.search.occluded_below;
+  }
+  for (size_t m = 0; m < segments(); ++m) {
+    if (layout_[m].layout == Layout::kDeformable) continue;
+    const SegmentState& segment = found.segments[m];
+    const auto first = found.parts.begin() + segment.first_part;
+    std::for_each(first, first + segment.part_count,
+                  [](PartState& part) { part.covariance *= kCellVariance; });
   }
   found.confidence = expectations_.meanConfidence(found.parts, 0, parts.size());
   for (size_t m = 0; m < segments(); ++m) fitSegment(m, poses[m], found);
