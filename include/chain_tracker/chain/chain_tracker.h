@@ -3,7 +3,9 @@
 ///
 /// Each update looks the colours up, compares every part's window with the histogram learned in
 /// the first frame, matches the whole chain at once by dynamic programming over a small set of
-/// orientations and scales, refines the winner at full resolution, and judges it.
+/// orientations and scales, refines the winner at full resolution, and judges it. An object that
+/// is less sure than usual is looked for elsewhere, too; one that is lost, farther away in every
+/// frame and at another orientation in every other.
 #pragma once
 
 #include <memory>
@@ -33,7 +35,9 @@ class ChainTracker {
   /// Tracks into the next frame and returns the state there.
   /// Throws std::invalid_argument if the image is empty or differs in size or type from the first;
   /// the tracker is then as before.
-  /// Time: linear in the number of parts; linear in the area of a part's search window.
+  /// Time: linear in the number of parts; linear in the area of a part's search window. A frame in
+  /// which the object begins to be in doubt takes three searches, every other one after it two, the
+  /// widest of them over 129 x 129 candidates a part.
   const ChainState& update(const cv::Mat& image);
 
   const ChainState& state() const;
