@@ -2,12 +2,12 @@
 #include "chain_search.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "chain_tracker/chain/similarity_fit.h"
 #include "robust_costs.h"
+#include "stopwatch.h"
 
 namespace chain_tracker {
 namespace {
@@ -31,20 +31,6 @@ constexpr int kLeastReach = 4;
 constexpr double kCellVariance = 0.25;
 /// Keeps the fit defined when no part is seen.
 constexpr double kSmallestWeight = 1e-3;
-
-class Stopwatch {
- public:
-  /// Time since the last lap or construction [ms].
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const std::chrono::duration<double, std::milli> elapsed = now - start_;
-    start_ = now;
-    return elapsed.count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 std::vector<SegmentPose> posesOf(const ChainState& state) {
   std::vector<SegmentPose> poses;
@@ -127,6 +113,11 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       appearance_(image, layout, model.appearance),
       expectations_(appearance_, model.appearance, initial.parts.size()) {
   for (const PartState& part : initial.parts) initial_orientations_.push_back(part.orientation);
+  for (const SegmentLayout& segment : layout_) {
+    const bool is_grid = segment.layout != Layout::kDeformable;
+    variance_shares_.insert(variance_shares_.end(), segment.parts.size(),
+                            is_grid ? kCellVariance : 1.0);
+  }
 }
 
 ChainState ChainSearch::find(const cv::Mat& image, const ChainState& sought,
@@ -148,10 +139,13 @@ ChainState ChainSearch::find(const cv::Mat& image, const ChainState& sought,
   const ChainMatch refined = matched(fine);
   if (refined.found()) {
     const std::vector<SegmentPose> poses = interpolatedPoses(fine.poses, refined);
-    fillIn(refineChain(layout_, poses, fine.segments, solver_workspace_), poses, found);
+    const std::vector<RefinedPart> parts =
+        refineChain(layout_, poses, fine.segments, solver_workspace_);
+    found.times.refinement = watch.lap();
+    fillIn(parts, poses, found);
     found.energy = refined.energy;
+    found.times.pose = watch.lap();
   }
-  found.times.refinement = watch.lap();
   return found;
 }
 
@@ -207,6 +201,7 @@ ChainSearch::Candidates ChainSearch::coarseCandidates(const cv::Mat& image) {
   const int step = coarseStep(smallestSide(previous_), range_.radius);
   const double radius = std::min(range_.radius, kWidestReach * step);
   Candidates coarse = candidatesAround(image, centers, previous_, step, radius);
+  robustify(coarse);
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentModel& model = model_.segments[m];
     coarse.poses.push_back({previous_[m], model.orientation_hypotheses, model.orientation_step,
@@ -230,6 +225,10 @@ ChainSearch::Candidates ChainSearch::fineCandidates(const cv::Mat& image, const 
   const int step = (coarse_step + kRefinedSteps - 1) / kRefinedSteps;
   const int reach = std::max(kLeastReach, coarse_step + step);
   Candidates fine = candidatesAround(image, centers, poses, step, reach);
+  for (SegmentCandidates& segment : fine.segments) {
+    for (const cv::Mat1f& map : segment.costs) segment.appearance.push_back(map.clone());
+  }
+  robustify(fine);
   for (size_t m = 0; m < segments(); ++m) {
     fine.poses.push_back(finePoses(model_.segments[m], poses[m]));
   }
@@ -266,35 +265,38 @@ void ChainSearch::computeCosts(const cv::Mat& image, size_t m, Candidates& candi
     colors.push_back(part.colors);
     textures.push_back(part.texture);
   }
-  std::vector<cv::Mat1f>& appearance = candidates.segments[m].appearance;
+  std::vector<cv::Mat1f>& costs = candidates.segments[m].costs;
   const AppearanceModel& model = model_.appearance;
-  computePartCosts(image, appearance_.palette(), colors, grid, model.weight, appearance,
+  computePartCosts(image, appearance_.palette(), colors, grid, model.weight, costs,
                    cost_workspace_);
   if (model.haar_weight > 0.0) {
-    addTextureCosts(image, textures, grid, model.haar_weight, appearance, texture_workspace_);
+    addTextureCosts(image, textures, grid, model.haar_weight, costs, texture_workspace_);
   }
-  std::vector<cv::Mat1f>& costs = candidates.segments[m].costs;
-  for (const cv::Mat1f& map : appearance) costs.push_back(map.clone());
-  robustify(m, grid, costs);
   const cv::Mat1f nothing(grid.states, 0.0F);
-  for (std::vector<cv::Mat1f>* maps : {&appearance, &costs}) {
-    if (segment.entry) maps->insert(maps->begin(), nothing);
-    if (segment.exit) maps->push_back(nothing);
+  if (segment.entry) costs.insert(costs.begin(), nothing);
+  if (segment.exit) costs.push_back(nothing);
+}
+
+void ChainSearch::robustify(Candidates& candidates) const {
+  for (size_t m = 0; m < segments(); ++m) {
+    const CandidateGrid& grid = candidates.grids[m];
+    std::vector<cv::Mat1f>& costs = candidates.segments[m].costs;
+    const size_t joint = layout_[m].entry ? 1 : 0;
+    const auto first_part = static_cast<size_t>(sought_.segments[m].first_part);
+    for (size_t k = 0; k < layout_[m].parts.size(); ++k) {
+      robustify(first_part + k, grid.positionOf(k, {0.0, 0.0}), grid.lattice.step,
+                costs[joint + k]);
+    }
   }
 }
 
-void ChainSearch::robustify(size_t m, const CandidateGrid& grid,
-                            std::vector<cv::Mat1f>& costs) const {
-  const auto first_part = static_cast<size_t>(sought_.segments[m].first_part);
+/// `origin`: of the part's state (0, 0).
+void ChainSearch::robustify(size_t part, const cv::Point2d& origin, int step,
+                            cv::Mat1f& costs) const {
   const AppearanceModel& model = model_.appearance;
-  for (size_t k = 0; k < costs.size(); ++k) {
-    const size_t part = first_part + k;
-    softenCosts(expectations_.outlierCost(part, model.outlier_below), model.outlier_slope,
-                costs[k]);
-    if (range_.travel_weight > 0.0) {
-      addTravelCosts(grid.positionOf(k, {0.0, 0.0}), grid.lattice.step,
-                     sought_.parts[part].position, range_.travel_weight, costs[k]);
-    }
+  softenCosts(expectations_.outlierCost(part, model.outlier_below), model.outlier_slope, costs);
+  if (range_.travel_weight > 0.0) {
+    addTravelCosts(origin, step, sought_.parts[part].position, range_.travel_weight, costs);
   }
 }
 
@@ -314,16 +316,9 @@ void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,
   for (size_t k = 0; k < parts.size(); ++k) {
     PartState& part = found.parts[k];
     part.position = parts[k].position;
-    part.covariance = parts[k].covariance;
+    part.covariance = parts[k].covariance * variance_shares_[k];
     part.confidence = expectations_.confidence(k, parts[k].appearance);
     part.visible = part.confidence >= model_.search.occluded_below;
-  }
-  for (size_t m = 0; m < segments(); ++m) {
-    if (layout_[m].layout == Layout::kDeformable) continue;
-    const SegmentState& segment = found.segments[m];
-    const auto first = found.parts.begin() + segment.first_part;
-    std::for_each(first, first + segment.part_count,
-                  [](PartState& part) { part.covariance *= kCellVariance; });
   }
   found.confidence = expectations_.meanConfidence(found.parts, 0, parts.size());
   for (size_t m = 0; m < segments(); ++m) fitSegment(m, poses[m], found);

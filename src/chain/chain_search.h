@@ -64,7 +64,8 @@ class ChainSearch {
   Candidates candidatesAround(const cv::Mat& image, const NodePositions& centers,
                               const std::vector<SegmentPose>& poses, int step, double radius);
   void computeCosts(const cv::Mat& image, size_t m, Candidates& candidates);
-  void robustify(size_t m, const CandidateGrid& grid, std::vector<cv::Mat1f>& costs) const;
+  void robustify(Candidates& candidates) const;
+  void robustify(size_t part, const cv::Point2d& origin, int step, cv::Mat1f& costs) const;
   double turnOf(size_t part) const;
   ChainMatch matched(const Candidates& candidates);
   void fillIn(const std::vector<RefinedPart>& parts, const std::vector<SegmentPose>& poses,
@@ -76,6 +77,7 @@ class ChainSearch {
   ObjectAppearance appearance_;
   PartExpectations expectations_;
   std::vector<double> initial_orientations_;  // of the parts
+  std::vector<double> variance_shares_;       // of the parts, in what the chain alone would leave
   // Of the search that goes on.
   ChainState sought_;
   std::vector<SegmentPose> previous_;

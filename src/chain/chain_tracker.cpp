@@ -10,6 +10,7 @@
 #include "chain_tracker/chain/object_shape.h"
 #include "chain_tracker/chain/target_checks.h"
 #include "lost_search.h"
+#include "stopwatch.h"
 
 namespace chain_tracker {
 namespace {
@@ -20,14 +21,11 @@ constexpr double kWidestSearch = 0.5;
 constexpr int kFramesPerLook = 2;
 /// How much more confidence it takes to believe that it is there.
 constexpr double kClearlyBetter = 0.15;
+/// Of what the parts can tell: more than that is hidden of an object that counts as occluded. The
+/// corner windows of a box show mostly background, which changes.
+constexpr double kMostHidden = 0.1;
 /// Of the usual confidence: a state that is trusted to be right.
 constexpr double kTrusted = 0.8;
-
-void addTimes(const StepTimes& times, StepTimes& sum) {
-  sum.part_costs += times.part_costs;
-  sum.matching += times.matching;
-  sum.refinement += times.refinement;
-}
 
 }  // namespace
 
@@ -47,7 +45,11 @@ class ChainTracker::Implementation {
   const ChainState& update(const cv::Mat& image) {
     requireSameKind(image, image_size_, image_type_);
     times_ = StepTimes();
-    accept(state_.status == TrackingStatus::kLost ? look(image, frames_lost_) : follow(image));
+    ChainState found =
+        state_.status == TrackingStatus::kLost ? look(image, frames_lost_) : follow(image);
+    Stopwatch watch;
+    accept(std::move(found));
+    times_.pose += watch.lap();
     state_.times = times_;
     return state_;
   }
@@ -99,7 +101,7 @@ class ChainTracker::Implementation {
 
   ChainState find(const cv::Mat& image, const ChainState& sought, const SearchRange& range) {
     ChainState found = search_.find(image, sought, range);
-    addTimes(found.times, times_);
+    times_ += found.times;
     return found;
   }
 
@@ -135,7 +137,7 @@ class ChainTracker::Implementation {
   /// Just beyond what the hypotheses cover, to one side.
   ChainState turned(const cv::Mat& image, int side) {
     ChainState sought = state_;
-    turnAboutMiddle(side * std::abs(soughtTurn(model_.segments.front(), 2)), sought);
+    turnAboutMiddle(side * sweepStep(model_.segments.front()), sought);
     return find(image, sought, {searchRadius(1), 0.0});
   }
 
@@ -149,9 +151,9 @@ class ChainTracker::Implementation {
   /// What was found becomes the state if it is good enough; otherwise the object is LOST and stays
   /// where it was last believed to be.
   void accept(ChainState found) {
-    const bool all_visible = std::all_of(found.parts.begin(), found.parts.end(),
-                                         [](const PartState& part) { return part.visible; });
-    found.status = nextStatus(state_.status, found.confidence, all_visible, model_.search);
+    const double hidden = search_.expectations().hiddenShare(found.parts);
+    const bool is_seen = hidden <= kMostHidden;
+    found.status = nextStatus(state_.status, found.confidence, is_seen, model_.search);
     if (found.status == TrackingStatus::kLost) {
       ++frames_lost_;
       state_.status = found.status;

@@ -10,15 +10,21 @@ namespace {
 /// Between the orientations that are tried, at least [rad].
 constexpr double kLeastSweep = 0.4;
 
+/// Orientations that see all between them.
+int sweepTurns(const SegmentModel& model) {
+  const double seen = std::max(kLeastSweep, model.orientation_hypotheses * model.orientation_step);
+  return std::max(2, static_cast<int>(std::ceil(2.0 * CV_PI / seen)));
+}
+
 }  // namespace
 
-double soughtTurn(const SegmentModel& model, int frames_lost) {
-  if (frames_lost == 0 || frames_lost % 2 == 1) return 0.0;
-  const double seen = std::max(kLeastSweep, model.orientation_hypotheses * model.orientation_step);
-  const int turns = std::max(2, static_cast<int>(std::ceil(2.0 * CV_PI / seen)));
-  const int i = 1 + (frames_lost / 2 - 1) % (turns - 1);
+double sweepStep(const SegmentModel& model) { return 2.0 * CV_PI / sweepTurns(model); }
+
+double soughtTurn(const SegmentModel& model, int failures) {
+  if (failures == 0 || failures % 2 == 1) return 0.0;
+  const int i = 1 + (failures / 2 - 1) % (sweepTurns(model) - 1);
   const int steps = (i % 2 == 0 ? -1 : 1) * ((i + 1) / 2);
-  return steps * 2.0 * CV_PI / turns;
+  return steps * sweepStep(model);
 }
 
 void turnAboutMiddle(double turn, ChainState& state) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Where a lost object is looked for: it may have turned meanwhile.
+/// Where an object is looked for that is not where it is expected: it may have turned meanwhile.
 #pragma once
 
 #include "chain_tracker/chain/chain_model.h"
@@ -7,10 +7,13 @@
 
 namespace chain_tracker {
 
-/// How far from its last orientation the object is looked for in the next frame [rad]: not at all
-/// after every odd number of lost frames, else by another multiple of what the hypotheses cover,
-/// nearer ones first, until all orientations have been seen. 0 for an object that is not lost.
-double soughtTurn(const SegmentModel& model, int frames_lost);
+/// The turn to the next orientation that the hypotheses do not cover [rad].
+double sweepStep(const SegmentModel& model);
+
+/// How far from its last orientation the object is looked for after so many searches in vain [rad]:
+/// not at all after an odd number of them, else by another multiple of sweepStep(), nearer ones
+/// first, until all orientations have been seen. 0 after none.
+double soughtTurn(const SegmentModel& model, int failures);
 
 /// Turns the object about the mean of its parts [rad].
 void turnAboutMiddle(double turn, ChainState& state);

@@ -61,6 +61,16 @@ double PartExpectations::meanConfidence(const std::vector<PartState>& parts, siz
   return sum / weights;
 }
 
+double PartExpectations::hiddenShare(const std::vector<PartState>& parts) const {
+  double hidden = 0.0;
+  double all = 0.0;
+  for (size_t k = 0; k < parts.size(); ++k) {
+    if (!parts[k].visible) hidden += evidence_[k];
+    all += evidence_[k];
+  }
+  return hidden / all;
+}
+
 void PartExpectations::observe(const ChainState& state) {
   for (size_t k = 0; k < usual_.size(); ++k) {
     usual_[k] = followed(usual_[k], state.parts[k].confidence, kPartSinks);

@@ -29,6 +29,9 @@ class PartExpectations {
   /// Mean confidence of `count` parts, weighted by what they can tell.
   double meanConfidence(const std::vector<PartState>& parts, size_t first, size_t count) const;
 
+  /// Share of what the parts can tell that is told by hidden ones, in [0, 1].
+  double hiddenShare(const std::vector<PartState>& parts) const;
+
   /// Of the object while it was believed in, slow to sink; 1 before anything was observed.
   double usualConfidence() const { return usual_of_object_; }
 

@@ -17,12 +17,12 @@ std::string toString(TrackingStatus status) {
   return "UNKNOWN";
 }
 
-TrackingStatus nextStatus(TrackingStatus previous, double confidence, bool all_parts_visible,
+TrackingStatus nextStatus(TrackingStatus previous, double confidence, bool is_seen,
                           const SearchModel& model) {
   const bool was_lost = previous == TrackingStatus::kLost;
   const double needed = was_lost ? model.found_above : model.lost_below;
   if (confidence < needed) return TrackingStatus::kLost;
-  return all_parts_visible ? TrackingStatus::kTracking : TrackingStatus::kOccluded;
+  return is_seen ? TrackingStatus::kTracking : TrackingStatus::kOccluded;
 }
 
 }  // namespace chain_tracker

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Rendered scenes in which the object is hidden, or moves faster than the pose hypotheses reach.
 #include <algorithm>
+#include <limits>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -10,13 +11,14 @@
 #include "chain_tracker/chain/auto_model.h"
 #include "chain_tracker/chain/chain_model_io.h"
 #include "chain_tracker/chain/chain_tracker.h"
+#include "chain_tracker/evaluation/metrics.h"
 #include "chain_tracker/evaluation/synthetic_scene.h"
 
 namespace chain_tracker {
 namespace {
 
 constexpr int kFrames = 300;
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegree = CV_PI / 180.0;
 
 /// Three things pass over the object, each hiding its middle for 30 frames.
 SceneOptions occluded(unsigned seed) {
@@ -51,6 +53,7 @@ SceneOptions growing(unsigned seed) {
   return options;
 }
 
+/// Largest distance of two points.
 double lengthOf(const std::vector<cv::Point2d>& points) {
   double length = 0.0;
   for (const cv::Point2d& a : points) {
@@ -68,20 +71,18 @@ double pckOf(const std::string& scene_name, const SceneOptions& options) {
   ChainTracker tracker(
       loadChainModel(std::string(CHAIN_TRACKER_SOURCE_DIR) + "/config/models/" + model + ".yaml"),
       first.image, first.points);
-  const double reach = 0.1 * lengthOf(first.points);
-  int seen = 0;
-  int found = 0;
+  std::vector<double> errors;
   for (int i = 1; i < kFrames; ++i) {
     const SceneFrame frame = scene->render(i);
     const ChainState& state = tracker.update(frame.image);
+    const bool is_lost = state.status == TrackingStatus::kLost;
     for (size_t k = 0; k < frame.points.size(); ++k) {
       if (!frame.visible[k]) continue;
-      ++seen;
-      const bool is_near = cv::norm(state.points[k].position - frame.points[k]) <= reach;
-      found += state.status != TrackingStatus::kLost && is_near ? 1 : 0;
+      errors.push_back(is_lost ? std::numeric_limits<double>::infinity()
+                               : cv::norm(state.points[k].position - frame.points[k]));
     }
   }
-  return static_cast<double>(found) / seen;
+  return shareWithin(errors, 0.1 * lengthOf(first.points));
 }
 
 struct Case {

@@ -68,6 +68,20 @@ TEST_F(PartExpectationsTest, partsAreSoonUsedToTheirNewLookAndTheObjectStaysInDo
   EXPECT_NEAR(0.9, expectations_.usualConfidence(), 1e-3);
 }
 
+TEST_F(PartExpectationsTest, hiddenShareGrowsFromNoughtToOne) {
+  ChainState state = frameOf(0.5);
+  for (PartState& part : state.parts) part.visible = true;
+  double before = 0.0;
+  EXPECT_EQ(0.0, expectations_.hiddenShare(state.parts));
+  for (PartState& part : state.parts) {
+    part.visible = false;
+    const double share = expectations_.hiddenShare(state.parts);
+    EXPECT_GT(share, before);
+    before = share;
+  }
+  EXPECT_NEAR(1.0, before, 1e-9);
+}
+
 TEST_F(PartExpectationsTest, meanLiesBetweenThePartsAndIsTheirsWhereTheyAgree) {
   ChainState state = frameOf(0.5);
   EXPECT_NEAR(0.5, expectations_.meanConfidence(state.parts, 0, parts_), 1e-9);

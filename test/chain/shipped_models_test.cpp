@@ -13,6 +13,7 @@
 
 #include "chain_tracker/chain/chain_model_io.h"
 #include "chain_tracker/chain/chain_tracker.h"
+#include "chain_tracker/evaluation/metrics.h"
 #include "chain_tracker/evaluation/synthetic_scene.h"
 
 namespace chain_tracker {
@@ -26,11 +27,6 @@ double meanDistance(const std::vector<CarriedPoint>& points,
   double sum = 0.0;
   for (size_t i = 0; i < truth.size(); ++i) sum += cv::norm(points[i].position - truth[i]);
   return sum / static_cast<double>(truth.size());
-}
-
-double intersectionOverUnion(const cv::Rect2d& a, const cv::Rect2d& b) {
-  const double intersection = (a & b).area();
-  return intersection / (a.area() + b.area() - intersection);
 }
 
 struct Accuracy {

@@ -26,7 +26,7 @@ struct SegmentCandidates {
   cv::Size states;                    ///< of every node: columns and rows
   std::vector<cv::Point2d> origins;   ///< position of each node's state (0, 0) [px]
   std::vector<cv::Mat1f> costs;       ///< of each node's states; a joint's are zero
-  std::vector<cv::Mat1f> appearance;  ///< the same before anything else was taken into account
+  std::vector<cv::Mat1f> appearance;  ///< what the costs are without robustness; for refineChain()
 
   /// Position of a node's state, which may lie between lattice points [px].
   cv::Point2d positionOf(size_t node, const cv::Point2d& state) const {

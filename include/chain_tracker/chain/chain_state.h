@@ -46,6 +46,13 @@ struct StepTimes {
   double refinement = 0.0;  ///< the same around the winner at full resolution
   double pose = 0.0;        ///< pose, confidence and status
   double total() const { return part_costs + matching + refinement + pose; }
+  StepTimes& operator+=(const StepTimes& other) {
+    part_costs += other.part_costs;
+    matching += other.matching;
+    refinement += other.refinement;
+    pose += other.pose;
+    return *this;
+  }
 };
 
 struct ChainState {

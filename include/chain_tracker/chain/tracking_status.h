@@ -10,8 +10,8 @@ namespace chain_tracker {
 
 enum class TrackingStatus {
   kInitializing,  ///< no frame tracked yet; the state is the one given
-  kTracking,      ///< all parts seen
-  kOccluded,      ///< tracked, some parts are hidden and carried by the others
+  kTracking,      ///< found, and seen but for little
+  kOccluded,      ///< found, more than a tenth is hidden and carried by the rest
   kLost,          ///< not found; positions are the last believed ones and mean nothing now
 };
 
@@ -20,7 +20,8 @@ std::string toString(TrackingStatus status);
 
 /// The status after a frame in which the object was matched with `confidence` [0, 1]. A LOST
 /// object needs more confidence to be believed again than a tracked one to be kept (hysteresis).
-TrackingStatus nextStatus(TrackingStatus previous, double confidence, bool all_parts_visible,
+/// `is_seen`: whether (nearly) nothing of it is hidden.
+TrackingStatus nextStatus(TrackingStatus previous, double confidence, bool is_seen,
                           const SearchModel& model);
 
 }  // namespace chain_tracker
