@@ -106,28 +106,24 @@ class Matcher {
     return static_cast<float>(jointCost(joint(m), pose(m, g), pose(m + 1, h)));
   }
 
-  /// The node maps of a segment, its joints taking what the neighbours say.
-  std::vector<cv::Mat1f> costsWith(size_t m, const std::vector<cv::Mat1f>& before, size_t h) const {
-    std::vector<cv::Mat1f> costs = problem_.candidates[m].costs;
-    if (m > 0) costs.front() = before[h];
-    return costs;
-  }
-
   /// ahead_[m][h]: least cost of segments 0..m that end in each state under pose h.
   void sweepForward() {
     for (size_t m = 0; m < segments(); ++m) {
       if (m > 0) into_.push_back(mergeForward(m - 1));
       ahead_.emplace_back();
+      std::vector<cv::Mat1f> costs = problem_.candidates[m].costs;
       for (size_t h = 0; h < poses(m); ++h) {
-        passForward(m, edges(m, h), h);
+        passForward(m, edges(m, h), h, costs);
         ahead_[m].push_back(raised(workspace_.forward.back(), temporal(m, h)));
       }
     }
   }
 
-  void passForward(size_t m, const std::vector<EdgeStencil>& edges, size_t h) {
-    const std::vector<cv::Mat1f> none;
-    forwardPass(costsWith(m, m > 0 ? into_[m - 1] : none, h), edges, workspace_);
+  /// `costs`: of the segment's nodes, of which the first takes what the segments before say.
+  void passForward(size_t m, const std::vector<EdgeStencil>& edges, size_t h,
+                   std::vector<cv::Mat1f>& costs) {
+    if (m > 0) costs.front() = into_[m - 1][h];
+    forwardPass(costs, edges, workspace_);
   }
 
   /// The message from segment m to each pose of the next one: the least over its own poses.
@@ -162,10 +158,10 @@ class Matcher {
     behind_.resize(segments());
     from_.resize(segments());
     for (size_t m = segments() - 1; m > 0; --m) {
+      std::vector<cv::Mat1f> costs = problem_.candidates[m].costs;
+      std::reverse(costs.begin(), costs.end());
       for (size_t h = 0; h < poses(m); ++h) {
-        std::vector<cv::Mat1f> costs = problem_.candidates[m].costs;
-        if (m + 1 < segments()) costs.back() = from_[m][h];
-        std::reverse(costs.begin(), costs.end());
+        if (m + 1 < segments()) costs.front() = from_[m][h];
         std::vector<EdgeStencil> backward = edges(m, h);
         std::reverse(backward.begin(), backward.end());
         for (EdgeStencil& edge : backward) edge = reversed(std::move(edge));
@@ -194,7 +190,8 @@ class Matcher {
       SegmentMatch& segment = match.segments[m];
       segment.pose = last ? bestLast(segment.energies) : bestInto(m, match.segments[m + 1]);
       const std::vector<EdgeStencil> springs = edges(m, segment.pose);
-      passForward(m, springs, segment.pose);
+      std::vector<cv::Mat1f> costs = problem_.candidates[m].costs;
+      passForward(m, springs, segment.pose, costs);
       const cv::Point end =
           last ? cheapestState(workspace_.forward.back()) : match.segments[m + 1].states.front();
       segment.states = traceBack(springs, end, workspace_);

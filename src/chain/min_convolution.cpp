@@ -15,23 +15,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kBlockColumns = 8;
 constexpr int kBlockRows = 4;
 
-struct Margin {
-  int columns = 0;
-  int rows = 0;
-};
-
-bool reachesNothing(const StencilOffset& offset, const cv::Mat1f& map) {
-  return std::abs(offset.columns) >= map.cols || std::abs(offset.rows) >= map.rows;
-}
-
-Margin marginFor(const EdgeStencil& stencil, const cv::Mat1f& map) {
-  Margin margin;
-  for (const StencilOffset& offset : stencil) {
-    if (reachesNothing(offset, map)) continue;
-    margin.columns = std::max(margin.columns, std::abs(offset.columns));
-    margin.rows = std::max(margin.rows, std::abs(offset.rows));
-  }
-  return margin;
+bool reachesNothing(const StencilOffset& offset, const cv::Size& map) {
+  return std::abs(offset.columns) >= map.width || std::abs(offset.rows) >= map.height;
 }
 
 /// block(y, x) = min over i of in[y stride + x - shifts[i]] + costs[i].
@@ -61,32 +46,72 @@ void copyBlock(const float* block, int row, int column, cv::Mat1f& out) {
   }
 }
 
+/// Makes `padded` all infinite, with room for `margin` around the input.
+void layOut(const cv::Size& size, const cv::Size& margin, MinConvolutionWorkspace& workspace) {
+  workspace.size = size;
+  workspace.margin = margin;
+  // Blocks of maps smaller than a block read this far past the input.
+  workspace.stride = size.width + 2 * margin.width + kBlockColumns;
+  const std::ptrdiff_t rows = size.height + 2 * margin.height + kBlockRows;
+  workspace.padded.assign(static_cast<std::size_t>(workspace.stride * rows), kInfinity);
+}
+
+/// Lists the offsets that reach anything; returns how far they reach beyond the map.
+cv::Size listOffsets(const EdgeStencil& stencil, MinConvolutionWorkspace& workspace) {
+  workspace.shifts.resize(stencil.size());
+  workspace.costs.resize(stencil.size());
+  std::size_t count = 0;
+  cv::Size margin;
+  for (const StencilOffset& offset : stencil) {
+    if (reachesNothing(offset, workspace.size)) continue;
+    margin.width = std::max(margin.width, std::abs(offset.columns));
+    margin.height = std::max(margin.height, std::abs(offset.rows));
+    workspace.shifts[count] = offset.rows * workspace.stride + offset.columns;
+    workspace.costs[count] = offset.cost;
+    ++count;
+  }
+  workspace.shifts.resize(count);
+  workspace.costs.resize(count);
+  return margin;
+}
+
+/// Makes room for the stencil around maps of a size. What is there serves again where it is enough.
+void prepare(const EdgeStencil& stencil, const cv::Size& size, MinConvolutionWorkspace& workspace) {
+  if (size != workspace.size) layOut(size, workspace.margin, workspace);
+  const cv::Size margin = listOffsets(stencil, workspace);
+  const cv::Size& kept = workspace.margin;
+  if (margin.width <= kept.width && margin.height <= kept.height) return;
+  layOut(size, {std::max(margin.width, kept.width), std::max(margin.height, kept.height)},
+         workspace);
+  listOffsets(stencil, workspace);
+}
+
+/// Copies the input into the middle of the infinities; returns where it begins.
+const float* pad(const cv::Mat1f& in, MinConvolutionWorkspace& workspace) {
+  float* const first =
+      workspace.padded.data() + workspace.margin.height * workspace.stride + workspace.margin.width;
+  for (int row = 0; row < in.rows; ++row) {
+    std::copy(in[row], in[row] + in.cols, first + row * workspace.stride);
+  }
+  return first;
+}
+
 }  // namespace
 
 void minConvolve(const cv::Mat1f& in, const EdgeStencil& stencil, cv::Mat1f& out,
                  MinConvolutionWorkspace& workspace) {
-  const Margin margin = marginFor(stencil, in);
-  // Blocks at the right and lower edges of the output read this far past the input.
-  const std::ptrdiff_t stride = in.cols + 2 * margin.columns + kBlockColumns;
-  const std::ptrdiff_t rows = in.rows + 2 * margin.rows + kBlockRows;
-  workspace.padded.assign(static_cast<std::size_t>(stride * rows), kInfinity);
-  float* first = workspace.padded.data() + margin.rows * stride + margin.columns;
-  for (int row = 0; row < in.rows; ++row) {
-    std::copy(in[row], in[row] + in.cols, first + row * stride);
-  }
-  workspace.shifts.clear();
-  workspace.costs.clear();
-  for (const StencilOffset& offset : stencil) {
-    if (reachesNothing(offset, in)) continue;
-    workspace.shifts.push_back(offset.rows * stride + offset.columns);
-    workspace.costs.push_back(offset.cost);
-  }
-  out.create(in.size());
+  const cv::Size size = in.size();
+  prepare(stencil, size, workspace);
+  const float* first = pad(in, workspace);
+  out.create(size);
   float block[kBlockRows * kBlockColumns];
-  for (int row = 0; row < in.rows; row += kBlockRows) {
-    for (int column = 0; column < in.cols; column += kBlockColumns) {
-      convolveBlock(first + row * stride + column, stride, workspace.shifts.data(),
-                    workspace.costs.data(), workspace.shifts.size(), block);
+  // The last blocks overlap those before them rather than reach beyond the map.
+  for (int next_row = 0; next_row < size.height; next_row += kBlockRows) {
+    const int row = std::max(0, std::min(next_row, size.height - kBlockRows));
+    for (int next_column = 0; next_column < size.width; next_column += kBlockColumns) {
+      const int column = std::max(0, std::min(next_column, size.width - kBlockColumns));
+      convolveBlock(first + row * workspace.stride + column, workspace.stride,
+                    workspace.shifts.data(), workspace.costs.data(), workspace.shifts.size(), block);
       copyBlock(block, row, column, out);
     }
   }

@@ -10,11 +10,13 @@
 namespace chain_tracker {
 namespace {
 
-/// coefficient[x] += learned * seen[x]
+/// coefficient[x] += learned * sqrt(seen[x])
 CHAIN_TRACKER_MULTIVERSION
-void accumulateRow(const float* __restrict seen, float learned, float* __restrict coefficient,
+void accumulateRow(const int* __restrict seen, float learned, float* __restrict coefficient,
                    int columns) {
-  for (int x = 0; x < columns; ++x) coefficient[x] += learned * seen[x];
+  for (int x = 0; x < columns; ++x) {
+    coefficient[x] += learned * std::sqrt(static_cast<float>(seen[x]));
+  }
 }
 
 CHAIN_TRACKER_MULTIVERSION
@@ -32,14 +34,16 @@ void markEntries(const RootHistogram& part, std::vector<bool>& wanted) {
   }
 }
 
-void computePartCost(const std::vector<cv::Mat1f>& roots, const RootHistogram& part,
-                     const cv::Point& corner, float weight, cv::Mat1f& cost) {
+/// `side`: of the windows [px].
+void computePartCost(const std::vector<cv::Mat1i>& counts, const RootHistogram& part,
+                     const cv::Point& corner, int side, float weight, cv::Mat1f& cost) {
   for (int row = 0; row < cost.rows; ++row) {
     float* out = cost[row];
     std::fill(out, out + cost.cols, 0.0F);
     for (size_t entry = 0; entry < part.size(); ++entry) {
       if (part[entry] == 0.0F) continue;
-      accumulateRow(roots[entry][corner.y + row] + corner.x, part[entry], out, cost.cols);
+      accumulateRow(counts[entry][corner.y + row] + corner.x,
+                    part[entry] / static_cast<float>(side), out, cost.cols);
     }
     coefficientToCostRow(out, weight, cost.cols);
   }
@@ -88,10 +92,11 @@ void computePartCosts(const cv::Mat& image, const ColorPalette& palette,
                       double weight, std::vector<cv::Mat1f>& costs, PartCostsWorkspace& workspace) {
   const bool is_sparse = grid.isSparse();
   const auto size = static_cast<size_t>(palette.size());
+  const int side = grid.lattice.window_cells * grid.lattice.step;
   if (!is_sparse) {
     std::vector<bool> wanted(size, false);
     for (const RootHistogram& part : parts) markEntries(part, wanted);
-    computeWindowHistograms(image, palette, grid.lattice, wanted, workspace.roots,
+    computeWindowHistograms(image, palette, grid.lattice, wanted, workspace.counts,
                             workspace.histograms);
   }
   costs.resize(parts.size());
@@ -99,12 +104,12 @@ void computePartCosts(const cv::Mat& image, const ColorPalette& palette,
     if (is_sparse) {
       std::vector<bool> wanted(size, false);
       markEntries(parts[k], wanted);
-      computeWindowHistograms(image, palette, grid.latticeOf(k), wanted, workspace.roots,
+      computeWindowHistograms(image, palette, grid.latticeOf(k), wanted, workspace.counts,
                               workspace.histograms);
     }
     const cv::Point corner = is_sparse ? cv::Point(0, 0) : grid.corners[k];
     costs[k].create(grid.states);
-    computePartCost(workspace.roots, parts[k], corner, static_cast<float>(weight), costs[k]);
+    computePartCost(workspace.counts, parts[k], corner, side, static_cast<float>(weight), costs[k]);
   }
 }
 
@@ -115,17 +120,20 @@ RootHistogram learnPart(const cv::Mat& image, const ColorPalette& palette,
   const cv::Point2d corner = center - cv::Point2d(1.0, 1.0) * (0.5 * (lattice.window_cells - 1));
   lattice.origin = {cvFloor(corner.x), cvFloor(corner.y)};
   lattice.size = {2, 2};
-  std::vector<cv::Mat1f> roots;
+  std::vector<cv::Mat1i> counts;
   WindowHistogramsWorkspace workspace;
   const std::vector<bool> all(static_cast<size_t>(palette.size()), true);
-  computeWindowHistograms(image, palette, lattice, all, roots, workspace);
+  computeWindowHistograms(image, palette, lattice, all, counts, workspace);
   const auto right = static_cast<float>(corner.x - lattice.origin.x);
   const auto down = static_cast<float>(corner.y - lattice.origin.y);
-  const auto share = [](float root) { return root * root; };
+  const auto area = static_cast<float>(lattice.window_cells * lattice.window_cells);
   RootHistogram histogram;
-  for (const cv::Mat1f& root : roots) {
-    const float upper = (1.0F - right) * share(root(0, 0)) + right * share(root(0, 1));
-    const float lower = (1.0F - right) * share(root(1, 0)) + right * share(root(1, 1));
+  for (const cv::Mat1i& count : counts) {
+    const auto share = [&](int row, int column) {
+      return static_cast<float>(count(row, column)) / area;
+    };
+    const float upper = (1.0F - right) * share(0, 0) + right * share(0, 1);
+    const float lower = (1.0F - right) * share(1, 0) + right * share(1, 1);
     histogram.push_back(std::sqrt((1.0F - down) * upper + down * lower));
   }
   return histogram;

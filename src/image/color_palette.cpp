@@ -7,6 +7,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "chain_tracker/image/multiversion.h"
+
 namespace chain_tracker {
 namespace {
 
@@ -173,6 +175,27 @@ cv::Mat3b greyLevels() {
   return colors;
 }
 
+/// Indices of the lookup table.
+CHAIN_TRACKER_MULTIVERSION
+void indexPixels(const uchar* __restrict bgr, std::uint16_t* __restrict indices, int pixels) {
+  for (int i = 0; i < pixels; ++i) {
+    indices[i] = static_cast<std::uint16_t>(((bgr[3 * i] >> kShift) << (2 * kBits)) |
+                                            ((bgr[3 * i + 1] >> kShift) << kBits) |
+                                            (bgr[3 * i + 2] >> kShift));
+  }
+}
+
+/// Computes the indices apart from looking them up, as only they can be vectorised.
+void classifyRow(const uchar* bgr, const std::uint8_t* table, uchar* entries, int pixels) {
+  constexpr int kRun = 256;
+  std::uint16_t indices[kRun];
+  for (int first = 0; first < pixels; first += kRun) {
+    const int run = std::min(kRun, pixels - first);
+    indexPixels(bgr + 3 * first, indices, run);
+    for (int i = 0; i < run; ++i) entries[first + i] = table[indices[i]];
+  }
+}
+
 }  // namespace
 
 void prepareForPalettes() { toLab(cv::Mat3b(1, 1, cv::Vec3b())); }
@@ -200,12 +223,7 @@ void ColorPalette::classify(const cv::Mat& image, const cv::Rect& region,
   for (int row = inside.y; row < inside.y + inside.height; ++row) {
     uchar* out = entries[row - region.y] + (inside.x - region.x);
     if (image.channels() == 3) {
-      const uchar* bgr = image.ptr(row, inside.x);
-      const std::uint8_t* table = bgr_table_.data();
-      for (int i = 0; i < inside.width; ++i, bgr += 3) {
-        out[i] = table[((bgr[0] >> kShift) << (2 * kBits)) | ((bgr[1] >> kShift) << kBits) |
-                       (bgr[2] >> kShift)];
-      }
+      classifyRow(image.ptr(row, inside.x), bgr_table_.data(), out, inside.width);
     } else {
       const uchar* grey = image.ptr(row, inside.x);
       for (int i = 0; i < inside.width; ++i) out[i] = grey_table_[grey[i]];

@@ -62,12 +62,13 @@ WindowResponses::Engine& WindowResponses::engineFor(int window_cells, int max_by
   return *engine;
 }
 
-void WindowResponses::splitIntoBytes(const std::vector<CellPlane>& planes, int bytes) {
-  byte_planes_ = planes.size() * static_cast<size_t>(bytes);
-  bytes_.resize(std::max(bytes_.size(), byte_planes_));
-  for (size_t i = 0; i < byte_planes_; ++i) {
-    const CellPlane& plane = planes[i % planes.size()];
-    const int shift = kByteBits * static_cast<int>(i / planes.size());
+void WindowResponses::splitIntoBytes(const std::vector<CellPlane>& planes, size_t count,
+                                     int bytes) {
+  const size_t byte_planes = count * static_cast<size_t>(bytes);
+  bytes_.resize(std::max(bytes_.size(), byte_planes));
+  for (size_t i = 0; i < byte_planes; ++i) {
+    const CellPlane& plane = planes[i % count];
+    const int shift = kByteBits * static_cast<int>(i / count);
     reuse(bytes_[i], plane.size());
     for (int row = 0; row < plane.rows; ++row) {
       takeByte(plane[row], shift, plane.cols, bytes_[i][row]);
@@ -75,29 +76,41 @@ void WindowResponses::splitIntoBytes(const std::vector<CellPlane>& planes, int b
   }
 }
 
-void WindowResponses::run(Engine& engine, const cv::Size& size) {
+WindowResponses::Engine& WindowResponses::run(const std::vector<cv::Mat1b>& planes, size_t count,
+                                              int window_cells, int max_byte) {
+  const cv::Size size = planes.front().size();
+  Engine& engine = engineFor(window_cells, max_byte, size);
   inputs_.clear();
-  for (size_t i = 0; i < byte_planes_; ++i) {
-    inputs_.push_back({bytes_[i].ptr(), static_cast<std::ptrdiff_t>(bytes_[i].step1())});
-  }
-  const size_t count = byte_planes_ * engine.plan.ensemble().size();
-  responses_.resize(std::max(responses_.size(), count));
-  outputs_.clear();
   for (size_t i = 0; i < count; ++i) {
+    inputs_.push_back({planes[i].ptr(), static_cast<std::ptrdiff_t>(planes[i].step1())});
+  }
+  const size_t responses = count * engine.plan.ensemble().size();
+  responses_.resize(std::max(responses_.size(), responses));
+  outputs_.clear();
+  for (size_t i = 0; i < responses; ++i) {
     reuse(responses_[i], size);
     outputs_.push_back({responses_[i][0], static_cast<std::ptrdiff_t>(responses_[i].step1())});
   }
   engine.executor->run(inputs_.data(), static_cast<int>(inputs_.size()), outputs_.data());
+  return engine;
+}
+
+const std::vector<cv::Mat1i>& WindowResponses::compute(const std::vector<cv::Mat1b>& planes,
+                                                       size_t count, int window_cells,
+                                                       int max_cell) {
+  run(planes, count, window_cells, max_cell);
+  return responses_;
 }
 
 const std::vector<cv::Mat1i>& WindowResponses::compute(const std::vector<CellPlane>& planes,
-                                                       int window_cells, int max_cell) {
-  const cv::Size size = planes.front().size();
-  Engine& engine = engineFor(window_cells, std::min(max_cell, kLargestByte), size);
-  splitIntoBytes(planes, bytesOf(max_cell));
-  run(engine, size);
+                                                       size_t count, int window_cells,
+                                                       int max_cell) {
+  const int bytes = bytesOf(max_cell);
+  splitIntoBytes(planes, count, bytes);
+  const Engine& engine = run(bytes_, count * static_cast<size_t>(bytes), window_cells,
+                             std::min(max_cell, kLargestByte));
   // Responses are linear in the cells.
-  const size_t wanted = planes.size() * engine.plan.ensemble().size();
+  const size_t wanted = count * engine.plan.ensemble().size();
   for (size_t i = wanted; i < outputs_.size(); ++i) {
     const int shift = kByteBits * static_cast<int>(i / wanted);
     cv::scaleAdd(responses_[i], 1 << shift, responses_[i % wanted], responses_[i % wanted]);

@@ -116,7 +116,7 @@ void computeWindowTextures(const cv::Mat& image, const WindowLattice& lattice,
   sumCells(workspace.pixels, lattice.step, workspace.cells.front());
   const int max_cell = std::numeric_limits<uchar>::max() * lattice.step * lattice.step;
   const std::vector<cv::Mat1i>& features =
-      workspace.features.compute(workspace.cells, lattice.window_cells, max_cell);
+      workspace.features.compute(workspace.cells, 1, lattice.window_cells, max_cell);
   const float quadrant_area = static_cast<float>(half) * static_cast<float>(half);
   for (int row = 0; row < lattice.size.height; ++row) {
     TextureRow windows{};

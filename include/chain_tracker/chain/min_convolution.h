@@ -14,6 +14,9 @@ namespace chain_tracker {
 
 struct MinConvolutionWorkspace {
   std::vector<float> padded;           ///< the input with a margin of infinities
+  cv::Size size;                       ///< of the input
+  cv::Size margin;                     ///< to each side of it
+  std::ptrdiff_t stride = 0;           ///< of the rows of `padded`
   std::vector<std::ptrdiff_t> shifts;  ///< of the stencil's offsets in `padded`
   std::vector<float> costs;
 };

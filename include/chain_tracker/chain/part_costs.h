@@ -49,7 +49,7 @@ CandidateGrid makeCandidateGrid(const std::vector<cv::Point2d>& centers, double 
                                 double radius);
 
 struct PartCostsWorkspace {
-  std::vector<cv::Mat1f> roots;
+  std::vector<cv::Mat1i> counts;
   WindowHistogramsWorkspace histograms;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Colour histograms of square windows on a lattice of positions, as square roots of frequencies:
-/// the form in which the Bhattacharyya coefficient of two histograms is a scalar product.
+/// Colour histograms of square windows on a lattice of positions.
 #pragma once
 
 #include <cstdint>
@@ -38,18 +37,19 @@ struct WindowHistogramsWorkspace {
   WindowHistogramsWorkspace();
 
   cv::Mat1b entries;
-  std::vector<CellPlane> planes;  ///< as many as were ever wanted, and one for what is unwanted
-  std::vector<CellPlane> cells;   ///< those of the wanted entries
+  std::vector<cv::Mat1b> small_planes;  ///< as many as were ever wanted, one for what is unwanted
+  std::vector<CellPlane> planes;        ///< the same for cells of more than 255 pixels
   WindowResponses sums;
 };
 
-/// roots[entry](row, column) = sqrt(share of the window's pixels that have that palette entry), for
-/// the entries that are wanted: maps of lattice.size. The other maps are left as they are.
+/// counts[entry](row, column): pixels of the window that have that palette entry, for the entries
+/// that are wanted: maps of at least lattice.size, valid until the workspace is used again. The
+/// other maps mean nothing.
 /// The sums over windows are those of the Haar front end, a plane for every wanted entry.
-/// `wanted` and `roots` have an element for every palette entry.
+/// `wanted` has an element for every palette entry.
 /// O(pixels + wanted entries x cells).
 void computeWindowHistograms(const cv::Mat& image, const ColorPalette& palette,
                              const WindowLattice& lattice, const std::vector<bool>& wanted,
-                             std::vector<cv::Mat1f>& roots, WindowHistogramsWorkspace& workspace);
+                             std::vector<cv::Mat1i>& counts, WindowHistogramsWorkspace& workspace);
 
 }  // namespace chain_tracker
