@@ -174,10 +174,10 @@ class Matcher {
 
   cv::Mat1d energiesOf(size_t m) const {
     const PoseGrid& grid = problem_.poses[m];
-    cv::Mat1d energies(grid.orientations, grid.scales);
+    const bool last = m + 1 == segments();
+    cv::Mat1d energies(grid.orientations, grid.scales, std::numeric_limits<double>::infinity());
     for (size_t h = 0; h < poses(m); ++h) {
-      const bool last = m + 1 == segments();
-      energies(static_cast<int>(h) / grid.scales, static_cast<int>(h) % grid.scales) =
+      energies(grid.cellOf(h)) =
           last ? leastOf(ahead_[m][h]) : leastOf(sumOf(ahead_[m][h], from_[m][h]));
     }
     return energies;
@@ -188,7 +188,7 @@ class Matcher {
     for (size_t m = segments(); m-- > 0;) {
       const bool last = m + 1 == segments();
       SegmentMatch& segment = match.segments[m];
-      segment.pose = last ? bestLast(segment.energies) : bestInto(m, match.segments[m + 1]);
+      segment.pose = last ? bestLast(m, segment.energies) : bestInto(m, match.segments[m + 1]);
       const std::vector<EdgeStencil> springs = edges(m, segment.pose);
       std::vector<cv::Mat1f> costs = problem_.candidates[m].costs;
       passForward(m, springs, segment.pose, costs);
@@ -198,9 +198,13 @@ class Matcher {
     }
   }
 
-  static size_t bestLast(const cv::Mat1d& energies) {
-    return static_cast<size_t>(
-        std::distance(energies.begin(), std::min_element(energies.begin(), energies.end())));
+  size_t bestLast(size_t m, const cv::Mat1d& energies) const {
+    const PoseGrid& grid = problem_.poses[m];
+    size_t best = 0;
+    for (size_t h = 1; h < poses(m); ++h) {
+      if (energies(grid.cellOf(h)) < energies(grid.cellOf(best))) best = h;
+    }
+    return best;
   }
 
   size_t bestInto(size_t m, const SegmentMatch& next) const {

@@ -62,7 +62,8 @@ SegmentCandidates candidatesOf(const SegmentLayout& segment, const CandidateGrid
   return candidates;
 }
 
-/// Half the coarse steps around the best coarse pose. Where the coarse search has a single
+/// Half the coarse steps around the best coarse pose, turned or rescaled: both have been tried
+/// together there, and interpolatePose() takes one after the other. Where the coarse search has a single
 /// hypothesis, the fit alone turns or rescales the segment, by up to the coarse step.
 PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
   const auto fine_step = [](int hypotheses, double step) {
@@ -70,7 +71,8 @@ PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
   };
   return {coarse, std::min(3, model.orientation_hypotheses),
           fine_step(model.orientation_hypotheses, model.orientation_step),
-          std::min(3, model.scale_hypotheses), fine_step(model.scale_hypotheses, model.scale_step)};
+          std::min(3, model.scale_hypotheses), fine_step(model.scale_hypotheses, model.scale_step),
+          true};
 }
 
 std::vector<SegmentPose> interpolatedPoses(const std::vector<PoseGrid>& grids,

@@ -111,7 +111,8 @@ void minConvolve(const cv::Mat1f& in, const EdgeStencil& stencil, cv::Mat1f& out
     for (int next_column = 0; next_column < size.width; next_column += kBlockColumns) {
       const int column = std::max(0, std::min(next_column, size.width - kBlockColumns));
       convolveBlock(first + row * workspace.stride + column, workspace.stride,
-                    workspace.shifts.data(), workspace.costs.data(), workspace.shifts.size(), block);
+                    workspace.shifts.data(), workspace.costs.data(), workspace.shifts.size(),
+                    block);
       copyBlock(block, row, column, out);
     }
   }

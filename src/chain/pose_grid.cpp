@@ -30,8 +30,16 @@ SegmentPose PoseGrid::at(double row, double column) const {
 }
 
 SegmentPose PoseGrid::at(size_t index) const {
-  const auto columns = static_cast<size_t>(scales);
-  return at(static_cast<double>(index / columns), static_cast<double>(index % columns));
+  const cv::Point cell = cellOf(index);
+  return at(cell.y, cell.x);
+}
+
+cv::Point PoseGrid::cellOf(size_t index) const {
+  const int i = static_cast<int>(index);
+  if (!is_cross) return {i % scales, i / scales};
+  if (i < orientations) return {scales / 2, i};
+  const int column = i - orientations;
+  return {column < scales / 2 ? column : column + 1, orientations / 2};
 }
 
 double temporalCost(const SegmentModel& model, const SegmentPose& previous,

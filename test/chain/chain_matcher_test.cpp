@@ -188,7 +188,8 @@ TinyChain tinyChain(RandomInputs& random, const TinySize& size, bool limited) {
     chain.previous.push_back({random.real(-CV_PI, CV_PI), random.real(0.7, 1.5)});
     chain.model.segments[m].orientation_sigma = random.real(0.1, 0.5);
     chain.model.segments[m].scale_sigma = random.real(0.05, 0.3);
-    chain.poses.push_back({chain.previous[m], size.orientations, 0.15, size.scales, 0.1});
+    chain.poses.push_back(
+        {chain.previous[m], size.orientations, 0.15, size.scales, 0.1, random.integer(0, 1) == 1});
     const Similarity transform{chain.previous[m].orientation + random.real(-0.3, 0.3),
                                chain.previous[m].scale * random.real(0.9, 1.1), start};
     const std::vector<cv::Point2d> nodes = placed(chain.segments[m], transform);
@@ -238,8 +239,7 @@ void expectGloballyOptimal(const TinyChain& chain) {
     const auto all = brute_force::enumerateChains(costs, chain.springs(poses));
     chains += all.chains;
     for (size_t m = 0; m < energies.size(); ++m) {
-      double& least = energies[m](static_cast<int>(indices[m]) / chain.poses[m].scales,
-                                  static_cast<int>(indices[m]) % chain.poses[m].scales);
+      double& least = energies[m](chain.poses[m].cellOf(indices[m]));
       least = std::min(least, all.cost + chain.poseCosts(poses));
     }
   }

@@ -44,6 +44,19 @@ TEST(PoseGrid, indexesScalesFastest) {
   EXPECT_NEAR(poses.at(4, 1).orientation, poses.at(13).orientation, 1e-12);
 }
 
+TEST(PoseGrid, crossHasEachPoseOfTheMiddleRowAndColumnOnce) {
+  const PoseGrid cross{{0.5, 1.0}, 5, 0.1, 3, 0.2, true};
+  cv::Mat1i times(5, 3, 0);
+  for (size_t i = 0; i < cross.size(); ++i) {
+    const cv::Point cell = cross.cellOf(i);
+    ++times(cell);
+    EXPECT_EQ(cross.at(cell.y, cell.x).orientation, cross.at(i).orientation);
+    EXPECT_EQ(cross.at(cell.y, cell.x).scale, cross.at(i).scale);
+  }
+  const cv::Mat1i expected = (cv::Mat1i(5, 3) << 0, 1, 0, 0, 1, 0, 1, 1, 1, 0, 1, 0, 0, 1, 0);
+  EXPECT_EQ(0, cv::countNonZero(times != expected)) << times;
+}
+
 TEST(JointCost, isNothingWithinTheLimits) {
   const JointModel elbow{-0.5, 2.0};
   EXPECT_FALSE(isFree(elbow));

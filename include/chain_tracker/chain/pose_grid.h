@@ -16,16 +16,23 @@ struct SegmentPose {
   double scale = 1.0;
 };
 
-/// Poses tried around a middle one: a grid over orientation and log scale.
+/// Poses tried around a middle one: a grid over orientation and log scale, or its middle row and
+/// column alone.
 struct PoseGrid {
   SegmentPose middle;
   int orientations = 1;           ///< odd
   double orientation_step = 0.0;  ///< [rad]
   int scales = 1;                 ///< odd
   double scale_step = 0.0;        ///< of the log scale
+  bool is_cross = false;          ///< only poses that differ from the middle in one of both
 
-  size_t size() const { return static_cast<size_t>(orientations * scales); }
-  /// Pose of an index, scales varying fastest; `row` and `column` may lie between poses.
+  size_t size() const {
+    return static_cast<size_t>(is_cross ? orientations + scales - 1 : orientations * scales);
+  }
+  /// Where in the grid a pose lies: column (scale) and row (orientation). Row by row, but a cross
+  /// has its middle column first.
+  cv::Point cellOf(size_t index) const;
+  /// `row` and `column` may lie between poses.
   SegmentPose at(double row, double column) const;
   SegmentPose at(size_t index) const;
 };
@@ -43,8 +50,8 @@ double jointCost(const JointModel& joint, const SegmentPose& before, const Segme
 bool isFree(const JointModel& joint);
 
 /// The pose between those of the grid at which parabolas through the energies (orientations x
-/// scales) of the best pose and of its neighbours are least. The best one itself where it has no
-/// neighbours on both sides.
+/// scales; infinite where no pose was tried) of the best pose and of its neighbours are least. The
+/// best one itself where it has no neighbours on both sides.
 SegmentPose interpolatePose(const PoseGrid& poses, const cv::Mat1d& energies);
 
 }  // namespace chain_tracker
