@@ -13,6 +13,8 @@ namespace {
 constexpr double kTurnStep = 0.1;
 /// Samples along a pixel's side: a turned window's pixels are none of the image's.
 constexpr int kSamplesPerPixel = 2;
+/// Samples along a window's side, at most: more do not change the shares of colours.
+constexpr int kMostSamples = 64;
 
 ColorPalette learnPalette(const cv::Mat& image, const Silhouette& silhouette,
                           const AppearanceModel& model) {
@@ -58,16 +60,19 @@ const PartAppearance& ObjectAppearance::part(size_t index, double turn) {
 }
 
 PartAppearance ObjectAppearance::learnTurned(const Window& window, double turn) const {
-  const int samples = kSamplesPerPixel * std::max(1, static_cast<int>(std::lround(window.side)));
-  const double spacing = 1.0 / kSamplesPerPixel;
-  const Similarity image_from_window{-turn, 1.0, window.center};
+  const int side = std::max(1, static_cast<int>(std::lround(window.side)));
+  const int samples = std::min(kMostSamples, kSamplesPerPixel * side);
+  const double spacing = static_cast<double>(side) / samples;
+  // From one sample to the next, along a row and along a column.
+  const cv::Point2d along(spacing * std::cos(turn), -spacing * std::sin(turn));
+  const cv::Point2d across(-along.y, along.x);
+  const cv::Point2d first = window.center - 0.5 * (samples - 1) * (along + across);
   const cv::Rect image(cv::Point(), entries_.size());
   std::vector<int> counts(static_cast<size_t>(palette_.size()), 0);
   int quadrants[2][2] = {{0, 0}, {0, 0}};
   for (int row = 0; row < samples; ++row) {
     for (int column = 0; column < samples; ++column) {
-      const cv::Point2d offset(column - 0.5 * (samples - 1), row - 0.5 * (samples - 1));
-      const cv::Point pixel = image_from_window.apply(spacing * offset);
+      const cv::Point pixel = first + column * along + row * across;
       const int entry = image.contains(pixel) ? entries_(pixel) : ColorPalette::kOther;
       ++counts[static_cast<size_t>(entry)];
       const cv::Point nearest(std::clamp(pixel.x, 0, image.width - 1),
