@@ -46,12 +46,11 @@ struct WindowHistogramsWorkspace {
   WindowResponses sums;
 };
 
-/// counts[entry](row, column): pixels looked at in the window that have that palette entry, for the entries
-/// that are wanted: maps of at least lattice.size, valid until the workspace is used again. The
-/// other maps mean nothing.
-/// The sums over windows are those of the Haar front end, a plane for every wanted entry.
-/// `wanted` has an element for every palette entry.
-/// O(pixels + wanted entries x cells).
+/// counts[entry](row, column): pixels looked at in the window that have that palette entry, for the
+/// entries that are wanted: maps of at least lattice.size, valid until the workspace is used again.
+/// The other maps mean nothing. The sums over windows are those of the Haar front end, a plane for
+/// every wanted entry. `wanted` has an element for every palette entry. O(pixels + wanted entries x
+/// cells).
 void computeWindowHistograms(const cv::Mat& image, const ColorPalette& palette,
                              const WindowLattice& lattice, const std::vector<bool>& wanted,
                              std::vector<cv::Mat1i>& counts, WindowHistogramsWorkspace& workspace);
