@@ -23,8 +23,6 @@ constexpr double kMostCandidates = 64.0;
 /// Steps to each side in the widest search, which bounds its time: what is thin, and so has a fine
 /// lattice, is not looked for all over the image.
 constexpr double kWidestReach = 64.0;
-/// Of lattices whose cells have pixels enough that every other row will do [px].
-constexpr int kLargeStep = 4;
 /// Of the refinement around the coarse match [px]: the windows of the coarse lattice are rounded to
 /// whole cells, which moves their optimum however fine the lattice is.
 constexpr int kLeastReach = 4;
@@ -251,7 +249,6 @@ ChainSearch::Candidates ChainSearch::candidatesAround(const cv::Mat& image,
     const auto first = centers[m].begin() + (segment.entry ? 1 : 0);
     const std::vector<cv::Point2d> parts(first, first + static_cast<int>(segment.parts.size()));
     candidates.grids.push_back(makeCandidateGrid(parts, sideOf(m, poses[m].scale), step, radius));
-    candidates.grids[m].lattice.row_step = step >= kLargeStep ? 2 : 1;
     candidates.segments.push_back(candidatesOf(segment, candidates.grids[m], centers[m].back()));
     if (m > 0) {
       candidates.segments[m].origins.front() = candidates.segments[m - 1].origins.back();

@@ -34,16 +34,16 @@ void markEntries(const RootHistogram& part, std::vector<bool>& wanted) {
   }
 }
 
-/// `root_of_area`: of the pixels of a window.
+/// `side`: of the windows [px].
 void computePartCost(const std::vector<cv::Mat1i>& counts, const RootHistogram& part,
-                     const cv::Point& corner, float root_of_area, float weight, cv::Mat1f& cost) {
+                     const cv::Point& corner, int side, float weight, cv::Mat1f& cost) {
   for (int row = 0; row < cost.rows; ++row) {
     float* out = cost[row];
     std::fill(out, out + cost.cols, 0.0F);
     for (size_t entry = 0; entry < part.size(); ++entry) {
       if (part[entry] == 0.0F) continue;
-      accumulateRow(counts[entry][corner.y + row] + corner.x, part[entry] / root_of_area, out,
-                    cost.cols);
+      accumulateRow(counts[entry][corner.y + row] + corner.x,
+                    part[entry] / static_cast<float>(side), out, cost.cols);
     }
     coefficientToCostRow(out, weight, cost.cols);
   }
@@ -92,7 +92,7 @@ void computePartCosts(const cv::Mat& image, const ColorPalette& palette,
                       double weight, std::vector<cv::Mat1f>& costs, PartCostsWorkspace& workspace) {
   const bool is_sparse = grid.isSparse();
   const auto size = static_cast<size_t>(palette.size());
-  const float root_of_area = std::sqrt(static_cast<float>(grid.lattice.windowPixels()));
+  const int side = grid.lattice.window_cells * grid.lattice.step;
   if (!is_sparse) {
     std::vector<bool> wanted(size, false);
     for (const RootHistogram& part : parts) markEntries(part, wanted);
@@ -109,8 +109,7 @@ void computePartCosts(const cv::Mat& image, const ColorPalette& palette,
     }
     const cv::Point corner = is_sparse ? cv::Point(0, 0) : grid.corners[k];
     costs[k].create(grid.states);
-    computePartCost(workspace.counts, parts[k], corner, root_of_area, static_cast<float>(weight),
-                    costs[k]);
+    computePartCost(workspace.counts, parts[k], corner, side, static_cast<float>(weight), costs[k]);
   }
 }
 

@@ -16,33 +16,16 @@ haar::FeatureEnsemble windowSum(int window_cells) {
   return {"window", {{"sum", {{0, 0, window_cells, window_cells, 1}}}}};
 }
 
-/// The palette entries of the rows that are looked at, one below the other.
-void classifyCells(const cv::Mat& image, const ColorPalette& palette, const WindowLattice& lattice,
-                   cv::Mat1b& entries) {
-  const cv::Rect pixels = lattice.pixels();
-  if (lattice.row_step == 1) return palette.classify(image, pixels, entries);
-  const int rows_of_cell = lattice.cellPixels() / lattice.step;
-  const int cells = pixels.height / lattice.step;
-  entries.create(cells * rows_of_cell, pixels.width);
-  for (int row = 0; row < entries.rows; ++row) {
-    const int y = row / rows_of_cell * lattice.step + row % rows_of_cell * lattice.row_step;
-    cv::Mat1b line = entries.row(row);
-    palette.classify(image, {pixels.x, pixels.y + y, pixels.width, 1}, line);
-  }
-}
-
-/// planes[entry](row, column) += number of pixels with that entry in the cell. `rows` of entries
-/// make one of cells.
+/// planes[entry](row, column) += number of pixels with that entry in the cell.
 template <typename Cell>
-void countCells(const cv::Mat1b& entries, int step, int rows,
-                const std::vector<cv::Mat_<Cell>*>& planes) {
+void countCells(const cv::Mat1b& entries, int step, const std::vector<cv::Mat_<Cell>*>& planes) {
   const int columns = entries.cols / step;
-  std::vector<Cell*> cells(planes.size());
+  std::vector<Cell*> rows(planes.size());
   for (int y = 0; y < entries.rows; ++y) {
-    for (size_t b = 0; b < planes.size(); ++b) cells[b] = (*planes[b])[y / rows];
+    for (size_t b = 0; b < planes.size(); ++b) rows[b] = (*planes[b])[y / step];
     const uchar* entry = entries[y];
     for (int column = 0; column < columns; ++column) {
-      for (int i = 0; i < step; ++i) ++cells[*entry++][column];
+      for (int i = 0; i < step; ++i) ++rows[*entry++][column];
     }
   }
 }
@@ -74,10 +57,9 @@ const std::vector<cv::Mat1i>& sumWindows(const WindowLattice& lattice,
                                          WindowHistogramsWorkspace& workspace) {
   const cv::Size cells(lattice.size.width + lattice.window_cells - 1,
                        lattice.size.height + lattice.window_cells - 1);
-  countCells(workspace.entries, lattice.step, lattice.cellPixels() / lattice.step,
-             clearedPlanes(wanted, cells, planes));
+  countCells(workspace.entries, lattice.step, clearedPlanes(wanted, cells, planes));
   const auto count = static_cast<size_t>(std::count(wanted.begin(), wanted.end(), true));
-  return workspace.sums.compute(planes, count, lattice.window_cells, lattice.cellPixels());
+  return workspace.sums.compute(planes, count, lattice.window_cells, lattice.step * lattice.step);
 }
 
 }  // namespace
@@ -89,8 +71,8 @@ void computeWindowHistograms(const cv::Mat& image, const ColorPalette& palette,
                              std::vector<cv::Mat1i>& counts, WindowHistogramsWorkspace& workspace) {
   counts.resize(wanted.size());
   if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return;
-  classifyCells(image, palette, lattice, workspace.entries);
-  const bool is_small = lattice.cellPixels() <= kLargestByte;
+  palette.classify(image, lattice.pixels(), workspace.entries);
+  const bool is_small = lattice.step * lattice.step <= kLargestByte;
   const std::vector<cv::Mat1i>& sums =
       is_small ? sumWindows(lattice, wanted, workspace.small_planes, workspace)
                : sumWindows(lattice, wanted, workspace.planes, workspace);

@@ -97,40 +97,6 @@ TEST(WindowHistograms, equalCountingPixels) {
   }
 }
 
-TEST(WindowHistograms, equalCountingTheRowsOfCellsThatAreLookedAt) {
-  RandomInputs random(9);
-  const ColorPalette palette = somePalette(CV_8UC3);
-  for (int step : {2, 3, 5, 8}) {
-    for (int row_step : {2, 3}) {
-      const cv::Mat image = random.noise({41, 37}, CV_8UC3);
-      const WindowLattice lattice{
-          {random.integer(-9, 9), random.integer(-9, 9)}, step, 3, {4, 5}, row_step};
-      SCOPED_TRACE(textOf(image, lattice) + ", rows " + std::to_string(row_step));
-      const std::vector<cv::Mat1i> counts = histogramsOf(image, palette, lattice);
-      const cv::Mat1b entries = brute_force::entriesOf(image, palette);
-      for (int row = 0; row < lattice.size.height; ++row) {
-        for (int column = 0; column < lattice.size.width; ++column) {
-          std::vector<int> expected(counts.size(), 0);
-          int pixels = 0;
-          for (int y = 0; y < 3 * step; ++y) {
-            if (y % step % row_step != 0) continue;
-            for (int x = 0; x < 3 * step; ++x, ++pixels) {
-              const cv::Point pixel =
-                  lattice.origin + cv::Point(column, row) * step + cv::Point(x, y);
-              const bool is_inside = cv::Rect({}, image.size()).contains(pixel);
-              ++expected[is_inside ? entries(pixel) : size_t{ColorPalette::kOther}];
-            }
-          }
-          ASSERT_EQ(pixels, lattice.windowPixels());
-          for (size_t b = 0; b < counts.size(); ++b) {
-            ASSERT_EQ(expected[b], counts[b](row, column)) << "entry " << b;
-          }
-        }
-      }
-    }
-  }
-}
-
 TEST(WindowHistograms, equalCountingPixelsOfTheSmallestImages) {
   RandomInputs random(2);
   const ColorPalette palette = somePalette(CV_8UC3);

@@ -29,7 +29,7 @@ struct CandidateGrid {
   /// The candidates of one part alone.
   WindowLattice latticeOf(size_t part) const {
     return {lattice.origin + lattice.step * corners[part], lattice.step, lattice.window_cells,
-            states, lattice.row_step};
+            states};
   }
 
   /// Whether the lattices of the parts cover fewer pixels, all together, than the common one.

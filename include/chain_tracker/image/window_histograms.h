@@ -19,11 +19,7 @@ struct WindowLattice {
   int step = 1;          ///< side of a cell [px]
   int window_cells = 1;  ///< side of a window [cells]
   cv::Size size;         ///< window positions: columns and rows
-  int row_step = 1;      ///< of a cell's rows, every so-manieth is looked at, from its first
 
-  /// Pixels of a cell and of a window that are looked at.
-  int cellPixels() const { return step * ((step + row_step - 1) / row_step); }
-  int windowPixels() const { return window_cells * window_cells * cellPixels(); }
   /// Centre of the window at (column, row) [px].
   cv::Point2d centerOf(double column, double row) const {
     const double half = 0.5 * (window_cells * step - 1);
@@ -46,11 +42,12 @@ struct WindowHistogramsWorkspace {
   WindowResponses sums;
 };
 
-/// counts[entry](row, column): pixels looked at in the window that have that palette entry, for the
-/// entries that are wanted: maps of at least lattice.size, valid until the workspace is used again.
-/// The other maps mean nothing. The sums over windows are those of the Haar front end, a plane for
-/// every wanted entry. `wanted` has an element for every palette entry. O(pixels + wanted entries x
-/// cells).
+/// counts[entry](row, column): pixels of the window that have that palette entry, for the entries
+/// that are wanted: maps of at least lattice.size, valid until the workspace is used again. The
+/// other maps mean nothing.
+/// The sums over windows are those of the Haar front end, a plane for every wanted entry.
+/// `wanted` has an element for every palette entry.
+/// O(pixels + wanted entries x cells).
 void computeWindowHistograms(const cv::Mat& image, const ColorPalette& palette,
                              const WindowLattice& lattice, const std::vector<bool>& wanted,
                              std::vector<cv::Mat1i>& counts, WindowHistogramsWorkspace& workspace);
