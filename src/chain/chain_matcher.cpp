@@ -44,6 +44,59 @@ bool areAlike(const EdgeLayout& a, const EdgeLayout& b) {
          a.stretch_sigma == b.stretch_sigma && a.bend_sigma == b.bend_sigma;
 }
 
+/// Samples the springs of a segment under a pose. A grid of cells has only three different ones,
+/// and sampling one costs more than its message; between lattices that are as many steps apart,
+/// even the stencils are the same.
+class EdgeSampler {
+ public:
+  EdgeSampler(const SegmentLayout& segment, const SegmentCandidates& candidates,
+              const SegmentPose& pose)
+      : segment_(segment), candidates_(candidates), pose_(pose) {}
+
+  ChainEdges sample() {
+    for (size_t k = 0; k < segment_.edges.size(); ++k) {
+      edges_.addEdge(kindOf(k, shiftBetween(candidates_, k)));
+    }
+    return std::move(edges_);
+  }
+
+ private:
+  struct Spring {
+    size_t edge;
+    cv::Point2d rest;
+    EdgeStencil stencil;
+    std::vector<std::pair<cv::Point, size_t>> kinds;  // by the steps between the lattices
+  };
+
+  Spring& springOf(size_t edge, const cv::Point2d& rest) {
+    for (Spring& spring : springs_) {
+      if (spring.rest == rest && areAlike(segment_.edges[spring.edge], segment_.edges[edge])) {
+        return spring;
+      }
+    }
+    const EdgeLayout& layout = segment_.edges[edge];
+    springs_.push_back({edge, rest, sampleSpring(layout, pose_, candidates_.step, rest), {}});
+    return springs_.back();
+  }
+
+  size_t kindOf(size_t edge, const LatticeShift& shift) {
+    Spring& spring = springOf(edge, shift.rest);
+    for (const auto& [steps, kind] : spring.kinds) {
+      if (steps == shift.steps) return kind;
+    }
+    const cv::Size reach = candidates_.states - cv::Size(1, 1);
+    const size_t kind = edges_.addKind(betweenStates(spring.stencil, shift.steps, reach));
+    spring.kinds.emplace_back(shift.steps, kind);
+    return kind;
+  }
+
+  const SegmentLayout& segment_;
+  const SegmentCandidates& candidates_;
+  SegmentPose pose_;
+  std::vector<Spring> springs_;
+  ChainEdges edges_;
+};
+
 /// least(q) = min(least(q), other(q))
 void lower(cv::Mat1f& least, const cv::Mat1f& other) {
   std::transform(least.begin(), least.end(), other.begin(), least.begin(),
@@ -88,7 +141,7 @@ class Matcher {
   SegmentPose pose(size_t m, size_t h) const { return problem_.poses[m].at(h); }
 
   /// Sampled anew in every pass: those of all poses together would leave the caches.
-  std::vector<EdgeStencil> edges(size_t m, size_t h) const {
+  ChainEdges edges(size_t m, size_t h) const {
     return sampleEdges(problem_.segments[m], problem_.candidates[m], pose(m, h));
   }
 
@@ -113,15 +166,23 @@ class Matcher {
       ahead_.emplace_back();
       std::vector<cv::Mat1f> costs = problem_.candidates[m].costs;
       for (size_t h = 0; h < poses(m); ++h) {
-        passForward(m, edges(m, h), h, costs);
+        ChainEdges springs = edges(m, h);
+        passForward(m, springs, h, costs);
         ahead_[m].push_back(raised(workspace_.forward.back(), temporal(m, h)));
+        if (m + 1 == segments()) keepIfBest(h, leastOf(ahead_[m][h]), std::move(springs));
       }
     }
   }
 
+  /// Of the last segment's passes, so that tracing need not repeat it.
+  void keepIfBest(size_t pose, double energy, ChainEdges springs) {
+    if (energy >= best_.energy) return;
+    best_ = {pose, energy, std::move(springs)};
+    std::swap(workspace_.forward, workspace_.best_forward);
+  }
+
   /// `costs`: of the segment's nodes, of which the first takes what the segments before say.
-  void passForward(size_t m, const std::vector<EdgeStencil>& edges, size_t h,
-                   std::vector<cv::Mat1f>& costs) {
+  void passForward(size_t m, const ChainEdges& edges, size_t h, std::vector<cv::Mat1f>& costs) {
     if (m > 0) costs.front() = into_[m - 1][h];
     forwardPass(costs, edges, workspace_);
   }
@@ -162,10 +223,7 @@ class Matcher {
       std::reverse(costs.begin(), costs.end());
       for (size_t h = 0; h < poses(m); ++h) {
         if (m + 1 < segments()) costs.front() = from_[m][h];
-        std::vector<EdgeStencil> backward = edges(m, h);
-        std::reverse(backward.begin(), backward.end());
-        for (EdgeStencil& edge : backward) edge = reversed(std::move(edge));
-        forwardPass(costs, backward, workspace_);
+        forwardPass(costs, edges(m, h).reversed(), workspace_);
         behind_[m].push_back(raised(workspace_.forward.back(), temporal(m, h)));
       }
       from_[m - 1] = mergeBackward(m - 1);
@@ -185,26 +243,20 @@ class Matcher {
 
   /// From the last segment to the first: the pose that leads to where the next one begins.
   void traceChain(ChainMatch& match) {
-    for (size_t m = segments(); m-- > 0;) {
-      const bool last = m + 1 == segments();
+    const size_t last = segments() - 1;
+    match.segments[last].pose = best_.pose;
+    std::swap(workspace_.forward, workspace_.best_forward);
+    match.segments[last].states =
+        traceBack(best_.edges, cheapestState(workspace_.forward.back()), workspace_);
+    for (size_t m = last; m-- > 0;) {
       SegmentMatch& segment = match.segments[m];
-      segment.pose = last ? bestLast(m, segment.energies) : bestInto(m, match.segments[m + 1]);
-      const std::vector<EdgeStencil> springs = edges(m, segment.pose);
+      const SegmentMatch& next = match.segments[m + 1];
+      segment.pose = bestInto(m, next);
+      const ChainEdges springs = edges(m, segment.pose);
       std::vector<cv::Mat1f> costs = problem_.candidates[m].costs;
       passForward(m, springs, segment.pose, costs);
-      const cv::Point end =
-          last ? cheapestState(workspace_.forward.back()) : match.segments[m + 1].states.front();
-      segment.states = traceBack(springs, end, workspace_);
+      segment.states = traceBack(springs, next.states.front(), workspace_);
     }
-  }
-
-  size_t bestLast(size_t m, const cv::Mat1d& energies) const {
-    const PoseGrid& grid = problem_.poses[m];
-    size_t best = 0;
-    for (size_t h = 1; h < poses(m); ++h) {
-      if (energies(grid.cellOf(h)) < energies(grid.cellOf(best))) best = h;
-    }
-    return best;
   }
 
   size_t bestInto(size_t m, const SegmentMatch& next) const {
@@ -219,8 +271,15 @@ class Matcher {
     return best;
   }
 
+  struct BestPass {
+    size_t pose = 0;
+    double energy = std::numeric_limits<double>::infinity();
+    ChainEdges edges;
+  };
+
   const MatchingProblem& problem_;
   ChainSolverWorkspace& workspace_;
+  BestPass best_;
   PoseMaps ahead_;
   PoseMaps behind_;
   PoseMaps into_;  // messages over the joint before segment m + 1
@@ -229,26 +288,9 @@ class Matcher {
 
 }  // namespace
 
-std::vector<EdgeStencil> sampleEdges(const SegmentLayout& segment,
-                                     const SegmentCandidates& candidates, const SegmentPose& pose) {
-  // A grid of cells has only three different edges, and sampling one costs more than its message.
-  std::vector<EdgeStencil> samples(segment.edges.size());
-  std::vector<cv::Point2d> rests(segment.edges.size());
-  std::vector<EdgeStencil> stencils;
-  for (size_t k = 0; k < segment.edges.size(); ++k) {
-    const LatticeShift shift = shiftBetween(candidates, k);
-    rests[k] = shift.rest;
-    const auto canShare = [&](size_t other) {
-      return !samples[other].empty() && rests[other] == rests[k] &&
-             areAlike(segment.edges[other], segment.edges[k]);
-    };
-    size_t twin = 0;
-    while (twin < k && !canShare(twin)) ++twin;
-    if (twin == k) samples[k] = sampleSpring(segment.edges[k], pose, candidates.step, shift.rest);
-    stencils.push_back(
-        betweenStates(samples[twin], shift.steps, candidates.states - cv::Size(1, 1)));
-  }
-  return stencils;
+ChainEdges sampleEdges(const SegmentLayout& segment, const SegmentCandidates& candidates,
+                       const SegmentPose& pose) {
+  return EdgeSampler(segment, candidates, pose).sample();
 }
 
 ChainMatch matchChain(const MatchingProblem& problem, ChainSolverWorkspace& workspace) {

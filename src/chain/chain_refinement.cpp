@@ -94,17 +94,16 @@ RefinedPart refinePart(const SegmentCandidates& candidates, std::size_t node,
 /// The segments' chains as one; the joint between two segments is one node.
 struct JoinedChain {
   std::vector<cv::Mat1f> costs;
-  std::vector<EdgeStencil> edges;
+  ChainEdges edges;
 };
 
 JoinedChain join(const std::vector<SegmentLayout>& segments, const std::vector<SegmentPose>& poses,
                  const std::vector<SegmentCandidates>& candidates) {
   JoinedChain chain;
   for (std::size_t m = 0; m < segments.size(); ++m) {
-    const std::vector<EdgeStencil> edges = sampleEdges(segments[m], candidates[m], poses[m]);
+    chain.edges.append(sampleEdges(segments[m], candidates[m], poses[m]));
     const auto own = candidates[m].costs.begin() + (segments[m].entry ? 1 : 0);
     chain.costs.insert(chain.costs.end(), own, candidates[m].costs.end());
-    chain.edges.insert(chain.edges.end(), edges.begin(), edges.end());
   }
   return chain;
 }

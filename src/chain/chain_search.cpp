@@ -29,6 +29,8 @@ constexpr int kLeastReach = 4;
 /// Of a cell of a grid, in what its chain alone would leave: the chain knows two of its neighbours,
 /// the shape holds it on all sides. Calibrated on rendered scenes.
 constexpr double kCellVariance = 0.25;
+/// States along a side on which poses are refined: a vector's length.
+constexpr int kPoseStates = 8;
 /// Keeps the fit defined when no part is seen.
 constexpr double kSmallestWeight = 1e-3;
 
@@ -62,19 +64,15 @@ SegmentCandidates candidatesOf(const SegmentLayout& segment, const CandidateGrid
   return candidates;
 }
 
-/// Half the coarse steps around the best coarse pose, turned or rescaled: both have been tried
-/// together there, and interpolatePose() takes one after the other. Where the coarse search has a
+/// Half the coarse steps around the best coarse pose. Where the coarse search has a
 /// single hypothesis, the fit alone turns or rescales the segment, by up to the coarse step.
 PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
   const auto fine_step = [](int hypotheses, double step) {
     return hypotheses > 1 ? 0.5 * step : 2.0 * step;
   };
-  return {coarse,
-          std::min(3, model.orientation_hypotheses),
+  return {coarse, std::min(3, model.orientation_hypotheses),
           fine_step(model.orientation_hypotheses, model.orientation_step),
-          std::min(3, model.scale_hypotheses),
-          fine_step(model.scale_hypotheses, model.scale_step),
-          true};
+          std::min(3, model.scale_hypotheses), fine_step(model.scale_hypotheses, model.scale_step)};
 }
 
 std::vector<SegmentPose> interpolatedPoses(const std::vector<PoseGrid>& grids,
@@ -100,6 +98,28 @@ double lengthRatio(const std::vector<cv::Point2d>& reference, const std::vector<
   return found_length / reference_length;
 }
 
+/// The states in the middle: enough to tell poses apart.
+SegmentCandidates middleOf(const SegmentCandidates& candidates) {
+  const cv::Size& all = candidates.states;
+  SegmentCandidates middle;
+  middle.step = candidates.step;
+  middle.states = {std::min(all.width, kPoseStates), std::min(all.height, kPoseStates)};
+  const cv::Point first(cv::Size(all - middle.states) / 2);
+  for (const cv::Point2d& origin : candidates.origins) {
+    middle.origins.push_back(origin + cv::Point2d(first) * candidates.step);
+  }
+  for (const cv::Mat1f& map : candidates.costs) {
+    middle.costs.push_back(map(cv::Rect(first, middle.states)));
+  }
+  return middle;
+}
+
+std::vector<SegmentCandidates> middlesOf(const std::vector<SegmentCandidates>& segments) {
+  std::vector<SegmentCandidates> middles;
+  for (const SegmentCandidates& segment : segments) middles.push_back(middleOf(segment));
+  return middles;
+}
+
 double clampedTurn(double from, double to, double limit) {
   return wrapAngle(from + std::clamp(wrapAngle(to - from), -limit, limit));
 }
@@ -115,7 +135,8 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
     : model_(model),
       layout_(layout.segments),
       appearance_(image, layout, model.appearance),
-      expectations_(appearance_, model.appearance, initial.parts.size()) {
+      expectations_(appearance_, model.appearance, initial.parts.size()),
+      pixels_(appearance_.palette()) {
   for (const PartState& part : initial.parts) initial_orientations_.push_back(part.orientation);
   for (const SegmentLayout& segment : layout_) {
     const bool is_grid = segment.layout != Layout::kDeformable;
@@ -124,8 +145,7 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
   }
 }
 
-ChainState ChainSearch::find(const cv::Mat& image, const ChainState& sought,
-                             const SearchRange& range) {
+ChainState ChainSearch::find(const ChainState& sought, const SearchRange& range) {
   Stopwatch watch;
   sought_ = sought;
   previous_ = posesOf(sought);
@@ -134,13 +154,13 @@ ChainState ChainSearch::find(const cv::Mat& image, const ChainState& sought,
   ChainState found = sought;
   found.confidence = 0.0;
   found.times = StepTimes();
-  const Candidates coarse = coarseCandidates(image);
+  const Candidates coarse = coarseCandidates();
   found.times.part_costs = watch.lap();
-  const ChainMatch match = matched(coarse);
+  const ChainMatch match = matched(coarse.poses, coarse.segments);
   found.times.matching = watch.lap();
   if (!match.found()) return found;
-  const Candidates fine = fineCandidates(image, coarse, match);
-  const ChainMatch refined = matched(fine);
+  const Candidates fine = fineCandidates(coarse, match);
+  const ChainMatch refined = matched(fine.poses, middlesOf(fine.segments));
   if (refined.found()) {
     const std::vector<SegmentPose> poses = interpolatedPoses(fine.poses, refined);
     const std::vector<RefinedPart> parts =
@@ -199,12 +219,12 @@ void ChainSearch::relaxSprings(const ChainState& state) {
 }
 
 /// Around where the nodes are believed to be.
-ChainSearch::Candidates ChainSearch::coarseCandidates(const cv::Mat& image) {
+ChainSearch::Candidates ChainSearch::coarseCandidates() {
   NodePositions centers;
   for (size_t m = 0; m < segments(); ++m) centers.push_back(nodePositions(sought_, m));
   const int step = coarseStep(smallestSide(previous_), range_.radius);
   const double radius = std::min(range_.radius, kWidestReach * step);
-  Candidates coarse = candidatesAround(image, centers, previous_, step, radius);
+  Candidates coarse = candidatesAround(centers, previous_, step, radius);
   robustify(coarse);
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentModel& model = model_.segments[m];
@@ -215,7 +235,7 @@ ChainSearch::Candidates ChainSearch::coarseCandidates(const cv::Mat& image) {
 }
 
 /// Up to a coarse step around the coarse match.
-ChainSearch::Candidates ChainSearch::fineCandidates(const cv::Mat& image, const Candidates& coarse,
+ChainSearch::Candidates ChainSearch::fineCandidates(const Candidates& coarse,
                                                     const ChainMatch& match) {
   const std::vector<SegmentPose> poses = interpolatedPoses(coarse.poses, match);
   NodePositions centers(segments());
@@ -228,7 +248,7 @@ ChainSearch::Candidates ChainSearch::fineCandidates(const cv::Mat& image, const 
   const int coarse_step = coarse.segments.front().step;
   const int step = (coarse_step + kRefinedSteps - 1) / kRefinedSteps;
   const int reach = std::max(kLeastReach, coarse_step + step);
-  Candidates fine = candidatesAround(image, centers, poses, step, reach);
+  Candidates fine = candidatesAround(centers, poses, step, reach);
   for (SegmentCandidates& segment : fine.segments) {
     for (const cv::Mat1f& map : segment.costs) segment.appearance.push_back(map.clone());
   }
@@ -239,8 +259,7 @@ ChainSearch::Candidates ChainSearch::fineCandidates(const cv::Mat& image, const 
   return fine;
 }
 
-ChainSearch::Candidates ChainSearch::candidatesAround(const cv::Mat& image,
-                                                      const NodePositions& centers,
+ChainSearch::Candidates ChainSearch::candidatesAround(const NodePositions& centers,
                                                       const std::vector<SegmentPose>& poses,
                                                       int step, double radius) {
   Candidates candidates;
@@ -253,12 +272,12 @@ ChainSearch::Candidates ChainSearch::candidatesAround(const cv::Mat& image,
     if (m > 0) {
       candidates.segments[m].origins.front() = candidates.segments[m - 1].origins.back();
     }
-    computeCosts(image, m, candidates);
+    computeCosts(m, candidates);
   }
   return candidates;
 }
 
-void ChainSearch::computeCosts(const cv::Mat& image, size_t m, Candidates& candidates) {
+void ChainSearch::computeCosts(size_t m, Candidates& candidates) {
   const SegmentLayout& segment = layout_[m];
   const CandidateGrid& grid = candidates.grids[m];
   const auto first_part = static_cast<size_t>(sought_.segments[m].first_part);
@@ -271,10 +290,9 @@ void ChainSearch::computeCosts(const cv::Mat& image, size_t m, Candidates& candi
   }
   std::vector<cv::Mat1f>& costs = candidates.segments[m].costs;
   const AppearanceModel& model = model_.appearance;
-  computePartCosts(image, appearance_.palette(), colors, grid, model.weight, costs,
-                   cost_workspace_);
+  computePartCosts(pixels_, colors, grid, model.weight, costs, cost_workspace_);
   if (model.haar_weight > 0.0) {
-    addTextureCosts(image, textures, grid, model.haar_weight, costs, texture_workspace_);
+    addTextureCosts(pixels_, textures, grid, model.haar_weight, costs, texture_workspace_);
   }
   const cv::Mat1f nothing(grid.states, 0.0F);
   if (segment.entry) costs.insert(costs.begin(), nothing);
@@ -309,9 +327,9 @@ double ChainSearch::turnOf(size_t part) const {
   return wrapAngle(sought_.parts[part].orientation - initial_orientations_[part]);
 }
 
-ChainMatch ChainSearch::matched(const Candidates& candidates) {
-  return matchChain({layout_, model_, previous_, candidates.poses, candidates.segments},
-                    solver_workspace_);
+ChainMatch ChainSearch::matched(const std::vector<PoseGrid>& poses,
+                                const std::vector<SegmentCandidates>& candidates) {
+  return matchChain({layout_, model_, previous_, poses, candidates}, solver_workspace_);
 }
 
 void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,

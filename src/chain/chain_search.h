@@ -31,15 +31,20 @@ class ChainSearch {
   /// `initial`: the object in the first frame, `image_from_segment` and parts only.
   ChainSearch(const ChainModel& model, const cv::Mat& image, const ChainLayout& layout,
               const ChainState& initial);
+  ChainSearch(const ChainSearch&) = delete;
+  ChainSearch& operator=(const ChainSearch&) = delete;
 
   const PartExpectations& expectations() const { return expectations_; }
   /// To be called with every state in which the object was found.
   void observe(const ChainState& state) { expectations_.observe(state); }
 
+  /// The image in which find() looks from now on; it must live as long.
+  void show(const cv::Mat& image) { pixels_.show(image); }
+
   /// `sought` moved to the best chain: parts, poses, confidence, energy and times; its status,
   /// outline and points are those of `sought`. Confidence 0 if the springs allow no chain.
   /// Time as of ChainTracker::update().
-  ChainState find(const cv::Mat& image, const ChainState& sought, const SearchRange& range);
+  ChainState find(const ChainState& sought, const SearchRange& range);
 
  private:
   /// What is looked at: one entry a segment.
@@ -58,16 +63,16 @@ class ChainSearch {
   std::vector<cv::Point2d> nodePositions(const ChainState& state, size_t m) const;
   void relaxSprings(const ChainState& state);
 
-  Candidates coarseCandidates(const cv::Mat& image);
-  Candidates fineCandidates(const cv::Mat& image, const Candidates& coarse,
-                            const ChainMatch& match);
-  Candidates candidatesAround(const cv::Mat& image, const NodePositions& centers,
-                              const std::vector<SegmentPose>& poses, int step, double radius);
-  void computeCosts(const cv::Mat& image, size_t m, Candidates& candidates);
+  Candidates coarseCandidates();
+  Candidates fineCandidates(const Candidates& coarse, const ChainMatch& match);
+  Candidates candidatesAround(const NodePositions& centers, const std::vector<SegmentPose>& poses,
+                              int step, double radius);
+  void computeCosts(size_t m, Candidates& candidates);
   void robustify(Candidates& candidates) const;
   void robustify(size_t part, const cv::Point2d& origin, int step, cv::Mat1f& costs) const;
   double turnOf(size_t part) const;
-  ChainMatch matched(const Candidates& candidates);
+  ChainMatch matched(const std::vector<PoseGrid>& poses,
+                     const std::vector<SegmentCandidates>& candidates);
   void fillIn(const std::vector<RefinedPart>& parts, const std::vector<SegmentPose>& poses,
               ChainState& found) const;
   void fitSegment(size_t m, const SegmentPose& searched, ChainState& state) const;
@@ -83,6 +88,7 @@ class ChainSearch {
   std::vector<SegmentPose> previous_;
   SearchRange range_;
 
+  FramePixels pixels_;
   PartCostsWorkspace cost_workspace_;
   TextureCostsWorkspace texture_workspace_;
   ChainSolverWorkspace solver_workspace_;

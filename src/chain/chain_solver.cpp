@@ -40,20 +40,21 @@ cv::Point cheapestState(const cv::Mat1f& map) {
   return cheapest;
 }
 
-double forwardPass(const std::vector<cv::Mat1f>& unary, const std::vector<EdgeStencil>& edges,
+double forwardPass(const std::vector<cv::Mat1f>& unary, const ChainEdges& edges,
                    ChainSolverWorkspace& workspace) {
   workspace.forward.resize(unary.size());
   unary.front().copyTo(workspace.forward.front());
   for (size_t k = 1; k < unary.size(); ++k) {
-    cv::Mat1f& forward = workspace.forward[k];
-    minConvolve(workspace.forward[k - 1], edges[k - 1], forward, workspace.convolution);
-    forward += unary[k];
+    if (k == 1 || !edges.areEqual(k - 1, k - 2)) {
+      workspace.convolution.setStencil(edges[k - 1], unary[k].size());
+    }
+    workspace.convolution.run(workspace.forward[k - 1], unary[k], workspace.forward[k]);
   }
   const cv::Mat1f& last = workspace.forward.back();
   return last(cheapestState(last));
 }
 
-std::vector<cv::Point> traceBack(const std::vector<EdgeStencil>& edges, const cv::Point& end,
+std::vector<cv::Point> traceBack(const ChainEdges& edges, const cv::Point& end,
                                  const ChainSolverWorkspace& workspace) {
   std::vector<cv::Point> states(workspace.forward.size());
   states.back() = end;
@@ -63,19 +64,22 @@ std::vector<cv::Point> traceBack(const std::vector<EdgeStencil>& edges, const cv
   return states;
 }
 
-void minMarginals(const std::vector<cv::Mat1f>& unary, const std::vector<EdgeStencil>& edges,
+void minMarginals(const std::vector<cv::Mat1f>& unary, const ChainEdges& edges,
                   std::vector<cv::Mat1f>& marginals, ChainSolverWorkspace& workspace) {
   const size_t parts = unary.size();
+  const ChainEdges backward = edges.reversed();
   marginals.resize(parts);
   workspace.backward.resize(parts);
+  workspace.zeros.create(unary.front().size());
+  workspace.zeros.setTo(0.0F);
   workspace.forward.back().copyTo(marginals.back());
+  unary.back().copyTo(workspace.sum);
   for (size_t k = parts - 1; k > 0; --k) {
-    workspace.sum.create(unary[k].size());
-    unary[k].copyTo(workspace.sum);
-    if (k + 1 < parts) workspace.sum += workspace.backward[k];
-    minConvolve(workspace.sum, reversed(edges[k - 1]), workspace.backward[k - 1],
-                workspace.convolution);
-    cv::add(workspace.forward[k - 1], workspace.backward[k - 1], marginals[k - 1]);
+    cv::Mat1f& message = workspace.backward[k - 1];
+    workspace.convolution.setStencil(backward[parts - 1 - k], unary[k].size());
+    workspace.convolution.run(workspace.sum, workspace.zeros, message);
+    cv::add(workspace.forward[k - 1], message, marginals[k - 1]);
+    cv::add(unary[k - 1], message, workspace.sum);
   }
 }
 

@@ -44,9 +44,9 @@ class ChainTracker::Implementation {
 
   const ChainState& update(const cv::Mat& image) {
     requireSameKind(image, image_size_, image_type_);
+    search_.show(image);
     times_ = StepTimes();
-    ChainState found =
-        state_.status == TrackingStatus::kLost ? look(image, frames_lost_) : follow(image);
+    ChainState found = state_.status == TrackingStatus::kLost ? look(frames_lost_) : follow();
     Stopwatch watch;
     accept(std::move(found));
     times_.pose += watch.lap();
@@ -99,25 +99,25 @@ class ChainTracker::Implementation {
     return diagonal * std::min(reach, std::max(model_.search.radius, kWidestSearch));
   }
 
-  ChainState find(const cv::Mat& image, const ChainState& sought, const SearchRange& range) {
-    ChainState found = search_.find(image, sought, range);
+  ChainState find(const ChainState& sought, const SearchRange& range) {
+    ChainState found = search_.find(sought, range);
     times_ += found.times;
     return found;
   }
 
   /// Where the object is if it has moved on as usual; elsewhere if there is reason to doubt that.
-  ChainState follow(const cv::Mat& image) {
+  ChainState follow() {
     const double radius = searchRadius(0);
-    ChainState found = find(image, state_, {radius, model_.search.travel_weight / radius});
+    ChainState found = find(state_, {radius, model_.search.travel_weight / radius});
     if (!isDoubtful(found.confidence)) {
       frames_doubted_ = 0;
       return found;
     }
     ++frames_doubted_;
     if (frames_doubted_ == 1) {
-      for (const int side : {-1, 1}) preferBetter(turned(image, side), found);
+      for (const int side : {-1, 1}) preferBetter(turned(side), found);
     } else if (frames_doubted_ % kFramesPerLook == 0) {
-      preferBetter(look(image, frames_doubted_ / kFramesPerLook), found);
+      preferBetter(look(frames_doubted_ / kFramesPerLook), found);
     }
     if (!isDoubtful(found.confidence)) frames_doubted_ = 0;
     return found;
@@ -135,17 +135,17 @@ class ChainTracker::Implementation {
   }
 
   /// Just beyond what the hypotheses cover, to one side.
-  ChainState turned(const cv::Mat& image, int side) {
+  ChainState turned(int side) {
     ChainState sought = state_;
     turnAboutMiddle(side * sweepStep(model_.segments.front()), sought);
-    return find(image, sought, {searchRadius(1), 0.0});
+    return find(sought, {searchRadius(1), 0.0});
   }
 
   /// Around where the object was last seen for sure, at another orientation every other time.
-  ChainState look(const cv::Mat& image, int failures) {
+  ChainState look(int failures) {
     ChainState sought = trusted_;
     turnAboutMiddle(soughtTurn(model_.segments.front(), failures), sought);
-    return find(image, sought, {searchRadius(failures), 0.0});
+    return find(sought, {searchRadius(failures), 0.0});
   }
 
   /// What was found becomes the state if it is good enough; otherwise the object is LOST and stays

@@ -126,4 +126,12 @@ EdgeStencil betweenStates(const EdgeStencil& stencil, const cv::Point& origin,
   return shifted;
 }
 
+EdgeStencil reversed(EdgeStencil stencil) {
+  for (StencilOffset& offset : stencil) {
+    offset.columns = -offset.columns;
+    offset.rows = -offset.rows;
+  }
+  return stencil;
+}
+
 }  // namespace chain_tracker

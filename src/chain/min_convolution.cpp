@@ -19,14 +19,22 @@ bool reachesNothing(const StencilOffset& offset, const cv::Size& map) {
   return std::abs(offset.columns) >= map.width || std::abs(offset.rows) >= map.height;
 }
 
-/// block(y, x) = min over i of in[y stride + x - shifts[i]] + costs[i].
+/// Where a block of a map begins, and how far apart its rows are.
+template <typename Element>
+struct Block {
+  Element* first;
+  std::ptrdiff_t stride;
+};
+
+/// out(y, x) = min over i of in(y, x - shifts[i]) + costs[i], plus added(y, x).
 CHAIN_TRACKER_MULTIVERSION
-void convolveBlock(const float* in, std::ptrdiff_t stride, const std::ptrdiff_t* shifts,
-                   const float* costs, std::size_t offsets, float* block) {
+void convolveBlock(const Block<const float>& in, const std::ptrdiff_t* shifts, const float* costs,
+                   std::size_t offsets, const Block<const float>& added, const Block<float>& out) {
+  const std::ptrdiff_t stride = in.stride;
   float least[kBlockRows][kBlockColumns];
   for (auto& row : least) std::fill(row, row + kBlockColumns, kInfinity);
   for (std::size_t i = 0; i < offsets; ++i) {
-    const float* source = in - shifts[i];
+    const float* source = in.first - shifts[i];
     const float cost = costs[i];
     for (int y = 0; y < kBlockRows; ++y) {
       for (int x = 0; x < kBlockColumns; ++x) {
@@ -35,95 +43,91 @@ void convolveBlock(const float* in, std::ptrdiff_t stride, const std::ptrdiff_t*
       }
     }
   }
-  std::copy(&least[0][0], &least[0][0] + kBlockRows * kBlockColumns, block);
-}
-
-void copyBlock(const float* block, int row, int column, cv::Mat1f& out) {
-  const int columns = std::min(kBlockColumns, out.cols - column);
-  for (int y = 0; y < std::min(kBlockRows, out.rows - row); ++y) {
-    const float* source = block + y * kBlockColumns;
-    std::copy(source, source + columns, out[row + y] + column);
+  for (int y = 0; y < kBlockRows; ++y) {
+    const float* __restrict own = added.first + y * added.stride;
+    float* __restrict target = out.first + y * out.stride;
+    for (int x = 0; x < kBlockColumns; ++x) target[x] = least[y][x] + own[x];
   }
-}
-
-/// Makes `padded` all infinite, with room for `margin` around the input.
-void layOut(const cv::Size& size, const cv::Size& margin, MinConvolutionWorkspace& workspace) {
-  workspace.size = size;
-  workspace.margin = margin;
-  // Blocks of maps smaller than a block read this far past the input.
-  workspace.stride = size.width + 2 * margin.width + kBlockColumns;
-  const std::ptrdiff_t rows = size.height + 2 * margin.height + kBlockRows;
-  workspace.padded.assign(static_cast<std::size_t>(workspace.stride * rows), kInfinity);
-}
-
-/// Lists the offsets that reach anything; returns how far they reach beyond the map.
-cv::Size listOffsets(const EdgeStencil& stencil, MinConvolutionWorkspace& workspace) {
-  workspace.shifts.resize(stencil.size());
-  workspace.costs.resize(stencil.size());
-  std::size_t count = 0;
-  cv::Size margin;
-  for (const StencilOffset& offset : stencil) {
-    if (reachesNothing(offset, workspace.size)) continue;
-    margin.width = std::max(margin.width, std::abs(offset.columns));
-    margin.height = std::max(margin.height, std::abs(offset.rows));
-    workspace.shifts[count] = offset.rows * workspace.stride + offset.columns;
-    workspace.costs[count] = offset.cost;
-    ++count;
-  }
-  workspace.shifts.resize(count);
-  workspace.costs.resize(count);
-  return margin;
-}
-
-/// Makes room for the stencil around maps of a size. What is there serves again where it is enough.
-void prepare(const EdgeStencil& stencil, const cv::Size& size, MinConvolutionWorkspace& workspace) {
-  if (size != workspace.size) layOut(size, workspace.margin, workspace);
-  const cv::Size margin = listOffsets(stencil, workspace);
-  const cv::Size& kept = workspace.margin;
-  if (margin.width <= kept.width && margin.height <= kept.height) return;
-  layOut(size, {std::max(margin.width, kept.width), std::max(margin.height, kept.height)},
-         workspace);
-  listOffsets(stencil, workspace);
-}
-
-/// Copies the input into the middle of the infinities; returns where it begins.
-const float* pad(const cv::Mat1f& in, MinConvolutionWorkspace& workspace) {
-  float* const first =
-      workspace.padded.data() + workspace.margin.height * workspace.stride + workspace.margin.width;
-  for (int row = 0; row < in.rows; ++row) {
-    std::copy(in[row], in[row] + in.cols, first + row * workspace.stride);
-  }
-  return first;
 }
 
 }  // namespace
 
-void minConvolve(const cv::Mat1f& in, const EdgeStencil& stencil, cv::Mat1f& out,
-                 MinConvolutionWorkspace& workspace) {
-  const cv::Size size = in.size();
-  prepare(stencil, size, workspace);
-  const float* first = pad(in, workspace);
-  out.create(size);
-  float block[kBlockRows * kBlockColumns];
-  // The last blocks overlap those before them rather than reach beyond the map.
-  for (int next_row = 0; next_row < size.height; next_row += kBlockRows) {
-    const int row = std::max(0, std::min(next_row, size.height - kBlockRows));
-    for (int next_column = 0; next_column < size.width; next_column += kBlockColumns) {
-      const int column = std::max(0, std::min(next_column, size.width - kBlockColumns));
-      convolveBlock(first + row * workspace.stride + column, workspace.stride,
-                    workspace.shifts.data(), workspace.costs.data(), workspace.shifts.size(),
-                    block);
-      copyBlock(block, row, column, out);
+/// Makes the padded input all infinite, with room for `margin` around the input.
+void MinConvolution::layOut(const cv::Size& margin) {
+  margin_ = margin;
+  // Blocks of maps smaller than a block read this far past the input.
+  stride_ = size_.width + 2 * margin.width + kBlockColumns;
+  const std::ptrdiff_t rows = size_.height + 2 * margin.height + kBlockRows;
+  padded_.assign(static_cast<std::size_t>(stride_ * rows), kInfinity);
+}
+
+/// Lists the offsets that reach anything; returns how far they reach beyond the map.
+cv::Size MinConvolution::listOffsets(const EdgeStencil& stencil) {
+  shifts_.clear();
+  costs_.clear();
+  cv::Size margin;
+  for (const StencilOffset& offset : stencil) {
+    if (reachesNothing(offset, size_)) continue;
+    margin.width = std::max(margin.width, std::abs(offset.columns));
+    margin.height = std::max(margin.height, std::abs(offset.rows));
+    shifts_.push_back(offset.rows * stride_ + offset.columns);
+    costs_.push_back(offset.cost);
+  }
+  return margin;
+}
+
+/// Room around the maps serves again where it is enough.
+void MinConvolution::setStencil(const EdgeStencil& stencil, const cv::Size& size) {
+  if (size != size_) {
+    size_ = size;
+    layOut(margin_);
+  }
+  const cv::Size margin = listOffsets(stencil);
+  if (margin.width <= margin_.width && margin.height <= margin_.height) return;
+  layOut({std::max(margin.width, margin_.width), std::max(margin.height, margin_.height)});
+  listOffsets(stencil);
+}
+
+/// Copies the input into the middle of the infinities; returns where it begins.
+const float* MinConvolution::pad(const cv::Mat1f& in) {
+  float* const first = padded_.data() + margin_.height * stride_ + margin_.width;
+  for (int row = 0; row < in.rows; ++row) {
+    std::copy(in[row], in[row] + in.cols, first + row * stride_);
+  }
+  return first;
+}
+
+/// `in`: of the padded input. The last blocks overlap those before them rather than reach beyond
+/// the maps, which must be as large as a block.
+void MinConvolution::runOnBlocks(const float* in, const cv::Mat1f& added, cv::Mat1f& out) const {
+  const auto added_stride = static_cast<std::ptrdiff_t>(added.step1());
+  const auto out_stride = static_cast<std::ptrdiff_t>(out.step1());
+  for (int next_row = 0; next_row < out.rows; next_row += kBlockRows) {
+    const int row = std::min(next_row, out.rows - kBlockRows);
+    for (int next_column = 0; next_column < out.cols; next_column += kBlockColumns) {
+      const int column = std::min(next_column, out.cols - kBlockColumns);
+      convolveBlock({in + row * stride_ + column, stride_}, shifts_.data(), costs_.data(),
+                    shifts_.size(), {added[row] + column, added_stride},
+                    {out[row] + column, out_stride});
     }
   }
 }
 
-EdgeStencil reversed(EdgeStencil stencil) {
-  for (StencilOffset& offset : stencil) {
-    offset.columns = -offset.columns;
-    offset.rows = -offset.rows;
+void MinConvolution::run(const cv::Mat1f& in, const cv::Mat1f& added, cv::Mat1f& out) {
+  const float* first = pad(in);
+  out.create(size_);
+  if (size_.width >= kBlockColumns && size_.height >= kBlockRows) {
+    runOnBlocks(first, added, out);
+    return;
   }
-  return stencil;
+  const cv::Rect map(cv::Point(), size_);
+  const cv::Size enlarged(std::max(size_.width, kBlockColumns), std::max(size_.height, kBlockRows));
+  enlarged_added_.create(enlarged);
+  enlarged_added_.setTo(0.0F);
+  added.copyTo(enlarged_added_(map));
+  enlarged_out_.create(enlarged);
+  runOnBlocks(first, enlarged_added_, enlarged_out_);
+  enlarged_out_(map).copyTo(out);
 }
 
 }  // namespace chain_tracker

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <opencv2/imgproc.hpp>
-
 namespace chain_tracker {
 namespace {
 
@@ -25,28 +23,21 @@ ColorPalette learnPalette(const cv::Mat& image, const Silhouette& silhouette,
   return {image, object, ring, {model.palette_colors, model.min_object_share}};
 }
 
-cv::Mat1b greyOf(const cv::Mat& image) {
-  cv::Mat1b grey;
-  if (image.channels() == 3) {
-    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
-  } else {
-    image.copyTo(grey);
-  }
-  return grey;
-}
-
 }  // namespace
 
 ObjectAppearance::ObjectAppearance(const cv::Mat& image, const ChainLayout& layout,
                                    const AppearanceModel& model)
-    : palette_(learnPalette(image, layout.silhouette, model)), grey_(greyOf(image)) {
-  palette_.classify(image, cv::Rect(cv::Point(), image.size()), entries_);
+    : palette_(learnPalette(image, layout.silhouette, model)) {
+  FramePixels pixels(palette_, image);
+  const cv::Rect all(cv::Point(), image.size());
+  entries_ = pixels.entries(all).clone();
+  grey_ = pixels.grey(all).clone();
   for (const SegmentLayout& segment : layout.segments) {
     for (const PartLayout& part : segment.parts) {
       const cv::Point2d center = segment.image_from_segment.apply(part.position);
       windows_.push_back({center, part.side});
       PartAppearance appearance = learnTurned(windows_.back(), 0.0);
-      appearance.colors = learnPart(image, palette_, center, part.side);
+      appearance.colors = learnPart(pixels, center, part.side);
       parts_[{windows_.size() - 1, 0}] = appearance;
     }
   }

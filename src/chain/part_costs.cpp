@@ -87,24 +87,23 @@ CandidateGrid makeCandidateGrid(const std::vector<cv::Point2d>& centers, double 
   return grid;
 }
 
-void computePartCosts(const cv::Mat& image, const ColorPalette& palette,
-                      const std::vector<RootHistogram>& parts, const CandidateGrid& grid,
-                      double weight, std::vector<cv::Mat1f>& costs, PartCostsWorkspace& workspace) {
+void computePartCosts(FramePixels& pixels, const std::vector<RootHistogram>& parts,
+                      const CandidateGrid& grid, double weight, std::vector<cv::Mat1f>& costs,
+                      PartCostsWorkspace& workspace) {
   const bool is_sparse = grid.isSparse();
-  const auto size = static_cast<size_t>(palette.size());
+  const auto size = static_cast<size_t>(pixels.palette().size());
   const int side = grid.lattice.window_cells * grid.lattice.step;
   if (!is_sparse) {
     std::vector<bool> wanted(size, false);
     for (const RootHistogram& part : parts) markEntries(part, wanted);
-    computeWindowHistograms(image, palette, grid.lattice, wanted, workspace.counts,
-                            workspace.histograms);
+    computeWindowHistograms(pixels, grid.lattice, wanted, workspace.counts, workspace.histograms);
   }
   costs.resize(parts.size());
   for (size_t k = 0; k < parts.size(); ++k) {
     if (is_sparse) {
       std::vector<bool> wanted(size, false);
       markEntries(parts[k], wanted);
-      computeWindowHistograms(image, palette, grid.latticeOf(k), wanted, workspace.counts,
+      computeWindowHistograms(pixels, grid.latticeOf(k), wanted, workspace.counts,
                               workspace.histograms);
     }
     const cv::Point corner = is_sparse ? cv::Point(0, 0) : grid.corners[k];
@@ -113,8 +112,7 @@ void computePartCosts(const cv::Mat& image, const ColorPalette& palette,
   }
 }
 
-RootHistogram learnPart(const cv::Mat& image, const ColorPalette& palette,
-                        const cv::Point2d& center, double side) {
+RootHistogram learnPart(FramePixels& pixels, const cv::Point2d& center, double side) {
   WindowLattice lattice;
   lattice.window_cells = std::max(1, static_cast<int>(std::lround(side)));
   const cv::Point2d corner = center - cv::Point2d(1.0, 1.0) * (0.5 * (lattice.window_cells - 1));
@@ -122,8 +120,8 @@ RootHistogram learnPart(const cv::Mat& image, const ColorPalette& palette,
   lattice.size = {2, 2};
   std::vector<cv::Mat1i> counts;
   WindowHistogramsWorkspace workspace;
-  const std::vector<bool> all(static_cast<size_t>(palette.size()), true);
-  computeWindowHistograms(image, palette, lattice, all, counts, workspace);
+  const std::vector<bool> all(static_cast<size_t>(pixels.palette().size()), true);
+  computeWindowHistograms(pixels, lattice, all, counts, workspace);
   const auto right = static_cast<float>(corner.x - lattice.origin.x);
   const auto down = static_cast<float>(corner.y - lattice.origin.y);
   const auto area = static_cast<float>(lattice.window_cells * lattice.window_cells);

@@ -36,7 +36,6 @@ SegmentPose PoseGrid::at(size_t index) const {
 
 cv::Point PoseGrid::cellOf(size_t index) const {
   const int i = static_cast<int>(index);
-  if (!is_cross) return {i % scales, i / scales};
   if (i < orientations) return {scales / 2, i};
   const int column = i - orientations;
   return {column < scales / 2 ? column : column + 1, orientations / 2};

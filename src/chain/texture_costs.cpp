@@ -25,17 +25,17 @@ void addRow(const float* __restrict left_right, const float* __restrict up_down,
 
 }  // namespace
 
-void addTextureCosts(const cv::Mat& image, const std::vector<WindowTexture>& parts,
+void addTextureCosts(FramePixels& pixels, const std::vector<WindowTexture>& parts,
                      const CandidateGrid& grid, double weight, std::vector<cv::Mat1f>& costs,
                      TextureCostsWorkspace& workspace) {
   const bool is_sparse = grid.isSparse();
   if (!is_sparse) {
-    computeWindowTextures(image, grid.lattice, workspace.textures, workspace.windows);
+    computeWindowTextures(pixels, grid.lattice, workspace.textures, workspace.windows);
   }
   const auto half_weight = static_cast<float>(0.5 * weight);
   for (size_t k = 0; k < parts.size(); ++k) {
     if (is_sparse) {
-      computeWindowTextures(image, grid.latticeOf(k), workspace.textures, workspace.windows);
+      computeWindowTextures(pixels, grid.latticeOf(k), workspace.textures, workspace.windows);
     }
     const cv::Point corner = is_sparse ? cv::Point(0, 0) : grid.corners[k];
     for (int row = 0; row < grid.states.height; ++row) {

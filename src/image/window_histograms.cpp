@@ -2,6 +2,7 @@
 #include "chain_tracker/image/window_histograms.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "reused_plane.h"
@@ -10,75 +11,71 @@ namespace chain_tracker {
 namespace {
 
 constexpr int kLargestByte = std::numeric_limits<uchar>::max();
+constexpr size_t kEntries = 256;
 
 /// The whole window.
 haar::FeatureEnsemble windowSum(int window_cells) {
   return {"window", {{"sum", {{0, 0, window_cells, window_cells, 1}}}}};
 }
 
-/// planes[entry](row, column) += number of pixels with that entry in the cell.
+/// Palette entries that are counted, in the order of the palette.
+std::vector<size_t> listWanted(const std::vector<bool>& wanted) {
+  std::vector<size_t> entries;
+  for (size_t entry = 0; entry < wanted.size(); ++entry) {
+    if (wanted[entry]) entries.push_back(entry);
+  }
+  return entries;
+}
+
+/// Counts(row, i * columns + column) = number of pixels in the cell with the i-th wanted entry.
+/// What is not wanted is counted behind that.
 template <typename Cell>
-void countCells(const cv::Mat1b& entries, int step, const std::vector<cv::Mat_<Cell>*>& planes) {
-  const int columns = entries.cols / step;
-  std::vector<Cell*> rows(planes.size());
-  for (int y = 0; y < entries.rows; ++y) {
-    for (size_t b = 0; b < planes.size(); ++b) rows[b] = (*planes[b])[y / step];
+cv::Mat_<Cell> countCells(const cv::Mat1b& entries, int step, const std::vector<size_t>& wanted,
+                          int columns, cv::Mat_<Cell>& plane) {
+  const int width = columns * static_cast<int>(wanted.size());
+  reuse(plane, {width + columns, entries.rows / step});
+  plane.setTo(0);
+  std::array<int, kEntries> offsets;
+  offsets.fill(width);
+  for (size_t i = 0; i < wanted.size(); ++i) offsets[wanted[i]] = static_cast<int>(i) * columns;
+  for (int y = 0; y < plane.rows * step; ++y) {
+    Cell* const cells = plane[y / step];
     const uchar* entry = entries[y];
     for (int column = 0; column < columns; ++column) {
-      for (int i = 0; i < step; ++i) ++rows[*entry++][column];
+      for (int i = 0; i < step; ++i) ++cells[offsets[*entry++] + column];
     }
   }
+  return plane.colRange(0, width);
 }
 
-/// Empty cells: for each entry its plane, which for all unwanted ones is the last.
-template <typename Cell>
-std::vector<cv::Mat_<Cell>*> clearedPlanes(const std::vector<bool>& wanted, const cv::Size& cells,
-                                           std::vector<cv::Mat_<Cell>>& planes) {
-  const auto count = static_cast<size_t>(std::count(wanted.begin(), wanted.end(), true));
-  planes.resize(std::max(planes.size(), count + 1));
-  for (size_t i = 0; i <= count; ++i) {
-    reuse(planes[i], cells);
-    for (int row = 0; row < cells.height; ++row) {
-      std::fill(planes[i][row], planes[i][row] + cells.width, Cell());
-    }
-  }
-  std::vector<cv::Mat_<Cell>*> of_entries;
-  of_entries.reserve(wanted.size());
-  auto next = planes.begin();
-  for (const bool is_wanted : wanted) of_entries.push_back(is_wanted ? &*next++ : &planes[count]);
-  return of_entries;
-}
-
-/// Sums over the windows, a map for every wanted entry.
-template <typename Cell>
-const std::vector<cv::Mat1i>& sumWindows(const WindowLattice& lattice,
-                                         const std::vector<bool>& wanted,
-                                         std::vector<cv::Mat_<Cell>>& planes,
-                                         WindowHistogramsWorkspace& workspace) {
-  const cv::Size cells(lattice.size.width + lattice.window_cells - 1,
-                       lattice.size.height + lattice.window_cells - 1);
-  countCells(workspace.entries, lattice.step, clearedPlanes(wanted, cells, planes));
-  const auto count = static_cast<size_t>(std::count(wanted.begin(), wanted.end(), true));
-  return workspace.sums.compute(planes, count, lattice.window_cells, lattice.step * lattice.step);
+/// Sums over the windows, the maps of the wanted entries side by side.
+const cv::Mat1i& sumWindows(const cv::Mat1b& entries, const WindowLattice& lattice,
+                            const std::vector<size_t>& wanted, int columns,
+                            WindowHistogramsWorkspace& workspace) {
+  const int cell_area = lattice.step * lattice.step;
+  const auto sum = [&](auto& plane) -> const cv::Mat1i& {
+    const auto counts = countCells(entries, lattice.step, wanted, columns, plane);
+    return workspace.sums.compute(counts, lattice.window_cells, cell_area).front();
+  };
+  return cell_area <= kLargestByte ? sum(workspace.small_cells) : sum(workspace.cells);
 }
 
 }  // namespace
 
 WindowHistogramsWorkspace::WindowHistogramsWorkspace() : sums(windowSum) {}
 
-void computeWindowHistograms(const cv::Mat& image, const ColorPalette& palette,
-                             const WindowLattice& lattice, const std::vector<bool>& wanted,
-                             std::vector<cv::Mat1i>& counts, WindowHistogramsWorkspace& workspace) {
+void computeWindowHistograms(FramePixels& pixels, const WindowLattice& lattice,
+                             const std::vector<bool>& wanted, std::vector<cv::Mat1i>& counts,
+                             WindowHistogramsWorkspace& workspace) {
   counts.resize(wanted.size());
-  if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return;
-  palette.classify(image, lattice.pixels(), workspace.entries);
-  const bool is_small = lattice.step * lattice.step <= kLargestByte;
-  const std::vector<cv::Mat1i>& sums =
-      is_small ? sumWindows(lattice, wanted, workspace.small_planes, workspace)
-               : sumWindows(lattice, wanted, workspace.planes, workspace);
-  auto next = sums.begin();
-  for (size_t entry = 0; entry < wanted.size(); ++entry) {
-    if (wanted[entry]) counts[entry] = *next++;
+  const std::vector<size_t> entries = listWanted(wanted);
+  if (entries.empty()) return;
+  const int columns = lattice.size.width + lattice.window_cells - 1;
+  const cv::Mat1i& sums =
+      sumWindows(pixels.entries(lattice.pixels()), lattice, entries, columns, workspace);
+  for (size_t i = 0; i < entries.size(); ++i) {
+    const int first = static_cast<int>(i) * columns;
+    counts[entries[i]] = sums(cv::Rect({first, 0}, lattice.size));
   }
 }
 

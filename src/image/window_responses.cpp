@@ -62,29 +62,15 @@ WindowResponses::Engine& WindowResponses::engineFor(int window_cells, int max_by
   return *engine;
 }
 
-void WindowResponses::splitIntoBytes(const std::vector<CellPlane>& planes, size_t count,
-                                     int bytes) {
-  const size_t byte_planes = count * static_cast<size_t>(bytes);
-  bytes_.resize(std::max(bytes_.size(), byte_planes));
-  for (size_t i = 0; i < byte_planes; ++i) {
-    const CellPlane& plane = planes[i % count];
-    const int shift = kByteBits * static_cast<int>(i / count);
-    reuse(bytes_[i], plane.size());
-    for (int row = 0; row < plane.rows; ++row) {
-      takeByte(plane[row], shift, plane.cols, bytes_[i][row]);
-    }
-  }
+void WindowResponses::addPlane(const cv::Mat1b& plane) {
+  inputs_.push_back({plane.ptr(), static_cast<std::ptrdiff_t>(plane.step1())});
 }
 
-WindowResponses::Engine& WindowResponses::run(const std::vector<cv::Mat1b>& planes, size_t count,
-                                              int window_cells, int max_byte) {
-  const cv::Size size = planes.front().size();
+/// Convolves the planes added since the last run.
+WindowResponses::Engine& WindowResponses::run(int window_cells, int max_byte,
+                                              const cv::Size& size) {
   Engine& engine = engineFor(window_cells, max_byte, size);
-  inputs_.clear();
-  for (size_t i = 0; i < count; ++i) {
-    inputs_.push_back({planes[i].ptr(), static_cast<std::ptrdiff_t>(planes[i].step1())});
-  }
-  const size_t responses = count * engine.plan.ensemble().size();
+  const size_t responses = inputs_.size() * engine.plan.ensemble().size();
   responses_.resize(std::max(responses_.size(), responses));
   outputs_.clear();
   for (size_t i = 0; i < responses; ++i) {
@@ -92,28 +78,34 @@ WindowResponses::Engine& WindowResponses::run(const std::vector<cv::Mat1b>& plan
     outputs_.push_back({responses_[i][0], static_cast<std::ptrdiff_t>(responses_[i].step1())});
   }
   engine.executor->run(inputs_.data(), static_cast<int>(inputs_.size()), outputs_.data());
+  inputs_.clear();
   return engine;
 }
 
-const std::vector<cv::Mat1i>& WindowResponses::compute(const std::vector<cv::Mat1b>& planes,
-                                                       size_t count, int window_cells,
+const std::vector<cv::Mat1i>& WindowResponses::compute(const cv::Mat1b& cells, int window_cells,
                                                        int max_cell) {
-  run(planes, count, window_cells, max_cell);
+  addPlane(cells);
+  run(window_cells, max_cell, cells.size());
   return responses_;
 }
 
-const std::vector<cv::Mat1i>& WindowResponses::compute(const std::vector<CellPlane>& planes,
-                                                       size_t count, int window_cells,
+const std::vector<cv::Mat1i>& WindowResponses::compute(const CellPlane& cells, int window_cells,
                                                        int max_cell) {
-  const int bytes = bytesOf(max_cell);
-  splitIntoBytes(planes, count, bytes);
-  const Engine& engine = run(bytes_, count * static_cast<size_t>(bytes), window_cells,
-                             std::min(max_cell, kLargestByte));
+  bytes_.resize(std::max(bytes_.size(), static_cast<size_t>(bytesOf(max_cell))));
+  for (int i = 0; i < bytesOf(max_cell); ++i) {
+    cv::Mat1b& bytes = bytes_[static_cast<size_t>(i)];
+    reuse(bytes, cells.size());
+    for (int row = 0; row < cells.rows; ++row) {
+      takeByte(cells[row], kByteBits * i, cells.cols, bytes[row]);
+    }
+    addPlane(bytes);
+  }
+  const Engine& engine = run(window_cells, std::min(max_cell, kLargestByte), cells.size());
   // Responses are linear in the cells.
-  const size_t wanted = count * engine.plan.ensemble().size();
-  for (size_t i = wanted; i < outputs_.size(); ++i) {
-    const int shift = kByteBits * static_cast<int>(i / wanted);
-    cv::scaleAdd(responses_[i], 1 << shift, responses_[i % wanted], responses_[i % wanted]);
+  const size_t features = engine.plan.ensemble().size();
+  for (size_t i = features; i < outputs_.size(); ++i) {
+    const int shift = kByteBits * static_cast<int>(i / features);
+    cv::scaleAdd(responses_[i], 1 << shift, responses_[i % features], responses_[i % features]);
   }
   return responses_;
 }

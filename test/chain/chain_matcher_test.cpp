@@ -84,7 +84,7 @@ TEST(SampleEdges, costWhatTheSpringsCostBetweenTheCandidates) {
     const CandidateGrid grid = makeCandidateGrid(centers, 10.0, step, 2.0 * step);
     SegmentCandidates candidates = candidatesOn(grid, {});
     candidates.origins.back() += cv::Point2d(0.3, -0.4);  // a lattice of its own
-    const std::vector<EdgeStencil> edges = sampleEdges(segment, candidates, pose);
+    const ChainEdges edges = sampleEdges(segment, candidates, pose);
     ASSERT_EQ(segment.edges.size(), edges.size());
     const auto spring = springsOf(segment, pose, candidates);
     for (size_t k = 0; k < edges.size(); ++k) {
@@ -112,9 +112,9 @@ TEST(SampleEdges, leaveNoEdgeOfNearlyEqualOnesOut) {
   const SegmentLayout segment = chainOf(
       {{14.0, 0.3, 0.1, 0.2}, {14.0, 0.3 + 0.9e-6, 0.1, 0.2}, {14.0, 0.3 + 1.8e-6, 0.1, 0.2}});
   const CandidateGrid grid = makeCandidateGrid(placed(segment, {0.0, 1.0, {50, 50}}), 10.0, 1, 6.0);
-  for (const EdgeStencil& edge : sampleEdges(segment, candidatesOn(grid, {}), {0.0, 1.0})) {
-    EXPECT_FALSE(edge.empty());
-  }
+  const ChainEdges edges = sampleEdges(segment, candidatesOn(grid, {}), {0.0, 1.0});
+  ASSERT_EQ(3U, edges.size());
+  for (size_t k = 0; k < edges.size(); ++k) EXPECT_FALSE(edges[k].empty());
 }
 
 /// Several segments end to end, few states and poses, somewhere, with random costs.
@@ -188,8 +188,7 @@ TinyChain tinyChain(RandomInputs& random, const TinySize& size, bool limited) {
     chain.previous.push_back({random.real(-CV_PI, CV_PI), random.real(0.7, 1.5)});
     chain.model.segments[m].orientation_sigma = random.real(0.1, 0.5);
     chain.model.segments[m].scale_sigma = random.real(0.05, 0.3);
-    chain.poses.push_back(
-        {chain.previous[m], size.orientations, 0.15, size.scales, 0.1, random.integer(0, 1) == 1});
+    chain.poses.push_back({chain.previous[m], size.orientations, 0.15, size.scales, 0.1});
     const Similarity transform{chain.previous[m].orientation + random.real(-0.3, 0.3),
                                chain.previous[m].scale * random.real(0.9, 1.1), start};
     const std::vector<cv::Point2d> nodes = placed(chain.segments[m], transform);
@@ -307,27 +306,35 @@ TEST(MatchChain, limitsTurnJointsBack) {
   EXPECT_GT(changed, 0);
 }
 
-TEST(MatchChain, findsTheTurnAndScaleThatTheCostsShow) {
+/// Costs that are least where the parts would be in a pose.
+std::vector<SegmentCandidates> candidatesShowing(const SegmentLayout& segment,
+                                                 const SegmentPose& pose) {
+  const std::vector<cv::Point2d> truth = placed(segment, {pose.orientation, pose.scale, {50, 50}});
+  const CandidateGrid grid = makeCandidateGrid(truth, 8.0, 1, 6.0);
+  std::vector<cv::Mat1f> costs(truth.size());
+  for (cv::Mat1f& map : costs) {
+    map = cv::Mat1f(grid.states, 20.0F);
+    map(grid.states.height / 2, grid.states.width / 2) = 0.0F;
+  }
+  return {candidatesOn(grid, costs)};
+}
+
+TEST(MatchChain, findsThePoseThatTheCostsShow) {
   const std::vector<SegmentLayout> segments = {
       chainOf({{40.0, 0.0, 0.01, 0.01}, {40.0, 0.5, 0.01, 0.01}})};
   ChainModel model;
   model.segments[0].orientation_sigma = model.segments[0].scale_sigma = 10.0;
   const std::vector<SegmentPose> previous = {{0.2, 1.0}};
   const std::vector<PoseGrid> poses = {{previous[0], 5, 0.1, 3, 0.05}};
-  const std::vector<cv::Point2d> truth = placed(segments[0], {0.4, std::exp(0.05), {50, 50}});
-  const CandidateGrid grid = makeCandidateGrid(truth, 8.0, 1, 6.0);
-  std::vector<cv::Mat1f> costs(3);
-  for (cv::Mat1f& map : costs) {
-    map = cv::Mat1f(grid.states, 20.0F);
-    map(grid.states.height / 2, grid.states.width / 2) = 0.0F;
-  }
-  ChainSolverWorkspace workspace;
-  const std::vector<SegmentCandidates> candidates = {candidatesOn(grid, costs)};
-  const ChainMatch match = matchChain({segments, model, previous, poses, candidates}, workspace);
-  ASSERT_TRUE(match.found());
-  EXPECT_EQ(4U * 3U + 2U, match.segments[0].pose);
-  for (const cv::Point& state : match.segments[0].states) {
-    EXPECT_EQ(cv::Point(grid.states / 2), state);
+  for (size_t pose = 0; pose < poses[0].size(); ++pose) {
+    const auto candidates = candidatesShowing(segments[0], poses[0].at(pose));
+    ChainSolverWorkspace workspace;
+    const ChainMatch match = matchChain({segments, model, previous, poses, candidates}, workspace);
+    ASSERT_TRUE(match.found());
+    EXPECT_EQ(pose, match.segments[0].pose);
+    for (const cv::Point& state : match.segments[0].states) {
+      EXPECT_EQ(cv::Point(candidates[0].states / 2), state);
+    }
   }
 }
 

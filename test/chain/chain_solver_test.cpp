@@ -195,26 +195,34 @@ TEST(ChainSolver, spotIsLeftOnceStretchingCostsMore) {
             traceBack(torn.problem.edges, cheapestState(workspace.forward.back()), workspace)[1]);
 }
 
+ChainEdges twoAlike(const EdgeStencil& stencil) {
+  ChainEdges edges;
+  const size_t kind = edges.addKind(stencil);
+  edges.addEdge(kind);
+  edges.addEdge(kind);
+  return edges;
+}
+
 TEST(ChainSolver, chainOfThreeShiftsAsAWhole) {
   std::vector<cv::Mat1f> unary(3, cv::Mat1f());
   for (cv::Mat1f& map : unary) map = cv::Mat1f(1, 30, 9.0F);
   unary[0](0, 12) = unary[1](0, 16) = unary[2](0, 22) = 0.0F;
   // Springs at rest at 5 columns, of cost (stretch)^2: both are stretched by one.
-  const EdgeStencil spring = {{4, 0, 1.0F}, {5, 0, 0.0F}, {6, 0, 1.0F}};
+  const ChainEdges edges = twoAlike({{4, 0, 1.0F}, {5, 0, 0.0F}, {6, 0, 1.0F}});
   ChainSolverWorkspace workspace;
-  EXPECT_EQ(2.0, forwardPass(unary, {spring, spring}, workspace));
+  EXPECT_EQ(2.0, forwardPass(unary, edges, workspace));
   const std::vector<cv::Point> states =
-      traceBack({spring, spring}, cheapestState(workspace.forward.back()), workspace);
+      traceBack(edges, cheapestState(workspace.forward.back()), workspace);
   EXPECT_EQ((std::vector<cv::Point>{{12, 0}, {16, 0}, {22, 0}}), states);
 }
 
 TEST(ChainSolver, tiesGoToTheFirstStateOfTheLastPartThenToTheFirstOffset) {
   const std::vector<cv::Mat1f> unary(3, cv::Mat1f(4, 5, 1.0F));
-  const EdgeStencil edge = {{-1, 0, 0.5F}, {0, -2, 0.5F}, {1, 0, 0.5F}};
+  const ChainEdges edges = twoAlike({{-1, 0, 0.5F}, {0, -2, 0.5F}, {1, 0, 0.5F}});
   ChainSolverWorkspace workspace;
-  EXPECT_EQ(4.0, forwardPass(unary, {edge, edge}, workspace));
+  EXPECT_EQ(4.0, forwardPass(unary, edges, workspace));
   const std::vector<cv::Point> states =
-      traceBack({edge, edge}, cheapestState(workspace.forward.back()), workspace);
+      traceBack(edges, cheapestState(workspace.forward.back()), workspace);
   EXPECT_EQ((std::vector<cv::Point>{{2, 0}, {1, 0}, {0, 0}}), states);
 }
 

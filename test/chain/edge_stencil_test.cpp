@@ -177,5 +177,17 @@ TEST(BetweenStates, leavesOutOffsetsThatJoinNoTwoStates) {
   EXPECT_TRUE(betweenStates(stencil, {100, 0}, {2, 3}).empty());
 }
 
+TEST(Reversed, sendsTheMessageTheOtherWay) {
+  RandomInputs random(7);
+  const EdgeStencil stencil = random.stencil(10, 4);
+  const EdgeStencil backwards = reversed(stencil);
+  ASSERT_EQ(stencil.size(), backwards.size());
+  for (size_t i = 0; i < stencil.size(); ++i) {
+    EXPECT_EQ(-stencil[i].columns, backwards[i].columns);
+    EXPECT_EQ(-stencil[i].rows, backwards[i].rows);
+    EXPECT_EQ(stencil[i].cost, backwards[i].cost);
+  }
+}
+
 }  // namespace
 }  // namespace chain_tracker

@@ -19,8 +19,9 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 cv::Mat1f convolve(const cv::Mat1f& in, const EdgeStencil& stencil) {
   cv::Mat1f out;
-  MinConvolutionWorkspace workspace;
-  minConvolve(in, stencil, out, workspace);
+  MinConvolution convolution;
+  convolution.setStencil(stencil, in.size());
+  convolution.run(in, cv::Mat1f(in.size(), 0.0F), out);
   return out;
 }
 
@@ -117,49 +118,64 @@ TEST(MinConvolution, readsAndWritesNothingAroundItsMaps) {
     // A read beyond the input would find the best cost of all.
     GuardedMap in(size, -1000.0F);
     GuardedMap out(size, 77.0F);
+    GuardedMap added(size, -1000.0F);
     random.costs(size).copyTo(in.map());
+    added.map().setTo(0.0F);
     const EdgeStencil stencil = random.stencil(20, 6);
-    MinConvolutionWorkspace workspace;
-    minConvolve(in.map(), stencil, out.map(), workspace);
+    MinConvolution convolution;
+    convolution.setStencil(stencil, size);
+    convolution.run(in.map(), added.map(), out.map());
     ASSERT_TRUE(out.holds(out.map())) << "the output was allocated anew";
     EXPECT_EQ("", firstDifference(brute_force::minConvolve(in.map(), stencil).map, out.map()));
     EXPECT_EQ("", in.damage());
+    EXPECT_EQ("", added.damage());
     EXPECT_EQ("", out.damage());
   }
 }
 
-TEST(MinConvolution, workspaceOfAnotherSizeLeavesNoTrace) {
+TEST(MinConvolution, addsWhatTheReceiverSays) {
+  RandomInputs random(8);
+  for (const cv::Size& size : hostileSizes()) {
+    SCOPED_TRACE(textOf(size));
+    const cv::Mat1f in = random.costs(size, 0.1);
+    const cv::Mat1f added = random.costs(size, 0.1);
+    const EdgeStencil stencil = random.stencil(12, 4);
+    MinConvolution convolution;
+    convolution.setStencil(stencil, size);
+    cv::Mat1f out;
+    convolution.run(in, added, out);
+    cv::Mat1d expected;
+    cv::add(brute_force::minConvolve(in, stencil).map, added, expected, cv::noArray(), CV_64F);
+    EXPECT_EQ("", firstDifference(expected, out, 1e-4));
+  }
+}
+
+TEST(MinConvolution, ofAnotherSizeLeavesNoTrace) {
   RandomInputs random(5);
-  MinConvolutionWorkspace workspace;
+  MinConvolution convolution;
   cv::Mat1f out;
   for (const cv::Size& size : {cv::Size(20, 20), cv::Size(3, 2), cv::Size(11, 30)}) {
     SCOPED_TRACE(textOf(size));
-    const cv::Mat1f in = random.costs(size, 0.2);
     const EdgeStencil stencil = random.stencil(10, 5);
-    minConvolve(in, stencil, out, workspace);
-    EXPECT_EQ("", firstDifference(brute_force::minConvolve(in, stencil).map, out));
+    convolution.setStencil(stencil, size);
+    for (int repeat = 0; repeat < 2; ++repeat) {
+      const cv::Mat1f in = random.costs(size, 0.2);
+      convolution.run(in, cv::Mat1f(size, 0.0F), out);
+      EXPECT_EQ("", firstDifference(brute_force::minConvolve(in, stencil).map, out));
+    }
   }
 }
 
 TEST(MinConvolution, outputMayBeTheInput) {
   RandomInputs random(6);
-  cv::Mat1f map = random.costs({13, 7});
-  const EdgeStencil stencil = random.stencil(9, 3);
-  const cv::Mat1d expected = brute_force::minConvolve(map, stencil).map;
-  MinConvolutionWorkspace workspace;
-  minConvolve(map, stencil, map, workspace);
-  EXPECT_EQ("", firstDifference(expected, map));
-}
-
-TEST(Reversed, sendsTheMessageTheOtherWay) {
-  RandomInputs random(7);
-  const EdgeStencil stencil = random.stencil(10, 4);
-  const EdgeStencil backwards = reversed(stencil);
-  ASSERT_EQ(stencil.size(), backwards.size());
-  for (size_t i = 0; i < stencil.size(); ++i) {
-    EXPECT_EQ(-stencil[i].columns, backwards[i].columns);
-    EXPECT_EQ(-stencil[i].rows, backwards[i].rows);
-    EXPECT_EQ(stencil[i].cost, backwards[i].cost);
+  for (const cv::Size& size : {cv::Size(13, 7), cv::Size(5, 3)}) {
+    cv::Mat1f map = random.costs(size);
+    const EdgeStencil stencil = random.stencil(9, 3);
+    const cv::Mat1d expected = brute_force::minConvolve(map, stencil).map;
+    MinConvolution convolution;
+    convolution.setStencil(stencil, size);
+    convolution.run(map, cv::Mat1f(size, 0.0F), map);
+    EXPECT_EQ("", firstDifference(expected, map));
   }
 }
 

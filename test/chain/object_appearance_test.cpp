@@ -84,11 +84,11 @@ TEST(ObjectAppearance, learnsEachPartWhereItLies) {
   const ChainModel model = boxModel();
   const ChainLayout layout = boxLayout(model);
   ObjectAppearance appearance(image, layout, model.appearance);
+  FramePixels pixels(appearance.palette(), image);
   const SegmentLayout& segment = layout.segments[0];
   for (size_t k = 0; k < segment.parts.size(); ++k) {
     const cv::Point2d center = segment.image_from_segment.apply(segment.parts[k].position);
-    EXPECT_EQ(learnPart(image, appearance.palette(), center, segment.parts[k].side),
-              appearance.part(k, 0.0).colors)
+    EXPECT_EQ(learnPart(pixels, center, segment.parts[k].side), appearance.part(k, 0.0).colors)
         << "part " << k;
   }
   const auto red = static_cast<size_t>(entryAt(appearance, image, {140, 120}));
@@ -138,8 +138,8 @@ TEST(ObjectAppearance, ofATurnedPartIsThatOfTheTurnedImage) {
       const double degrees = -turn * 180.0 / CV_PI;  // OpenCV counts against the image's y axis
       cv::warpAffine(image, turned, cv::getRotationMatrix2D(center, degrees, 1.0), image.size(),
                      cv::INTER_NEAREST);
-      const RootHistogram expected =
-          learnPart(turned, appearance.palette(), center, segment.parts[k].side);
+      FramePixels pixels(appearance.palette(), turned);
+      const RootHistogram expected = learnPart(pixels, center, segment.parts[k].side);
       const RootHistogram& actual = appearance.part(k, turn).colors;
       ASSERT_EQ(expected.size(), actual.size());
       for (size_t entry = 0; entry < expected.size(); ++entry) {

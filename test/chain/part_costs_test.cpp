@@ -112,6 +112,7 @@ TEST(ComputePartCosts, equalTheBhattacharyyaDistanceOfCountedPixels) {
     for (int step : {1, 2, 5}) {
       const cv::Mat image = texture(random, {70, 50}, type);
       const ColorPalette palette = somePalette(image);
+      FramePixels pixels(palette, image);
       const cv::Mat1b entries = brute_force::entriesOf(image, palette);
       // Parts inside the image, over its border, and outside it.
       const std::vector<cv::Point2d> centers = {{20, 21}, {36, 24}, {66, 40}, {-30, 10}};
@@ -121,11 +122,11 @@ TEST(ComputePartCosts, equalTheBhattacharyyaDistanceOfCountedPixels) {
       SCOPED_TRACE(textOf(grid));
       std::vector<RootHistogram> parts;
       for (const cv::Point2d& center : centers) {
-        parts.push_back(learnPart(image, palette, center, side));
+        parts.push_back(learnPart(pixels, center, side));
       }
       std::vector<cv::Mat1f> costs;
       PartCostsWorkspace workspace;
-      computePartCosts(image, palette, parts, grid, weight, costs, workspace);
+      computePartCosts(pixels, parts, grid, weight, costs, workspace);
 
       ASSERT_EQ(centers.size(), costs.size());
       for (size_t k = 0; k < centers.size(); ++k) {
@@ -155,12 +156,13 @@ TEST(ComputePartCosts, equalTheBhattacharyyaDistanceOfCountedPixels) {
 TEST(ComputePartCosts, nothingInCommonCostsTheWholeWeight) {
   const cv::Mat image(30, 30, CV_8UC3, cv::Scalar(20, 20, 200));
   const ColorPalette palette = somePalette(image);
+  FramePixels pixels(palette, image);
   ASSERT_EQ(2, palette.size());
   const RootHistogram only_other = {1.0F, 0.0F};
   const CandidateGrid grid = makeCandidateGrid({{15, 15}}, 8.0, 2, 4.0);
   std::vector<cv::Mat1f> costs;
   PartCostsWorkspace workspace;
-  computePartCosts(image, palette, {only_other}, grid, 6.0, costs, workspace);
+  computePartCosts(pixels, {only_other}, grid, 6.0, costs, workspace);
   EXPECT_EQ("", firstDifference(cv::Mat1f(grid.states, 6.0F), costs[0]));
 }
 
@@ -168,13 +170,14 @@ TEST(ComputePartCosts, partIsCheapestWhereItWasLearned) {
   RandomInputs random(5);
   const cv::Mat image = texture(random, {80, 80}, CV_8UC3);
   const ColorPalette palette = somePalette(image);
+  FramePixels pixels(palette, image);
   const CandidateGrid grid = makeCandidateGrid({{40, 40}}, 15.0, 1, 20.0);
   const cv::Point learned_state(27, 13);
   const RootHistogram part =
-      learnPart(image, palette, grid.positionOf(0, cv::Point2d(learned_state)), 15.0);
+      learnPart(pixels, grid.positionOf(0, cv::Point2d(learned_state)), 15.0);
   std::vector<cv::Mat1f> costs;
   PartCostsWorkspace workspace;
-  computePartCosts(image, palette, {part}, grid, 1.0, costs, workspace);
+  computePartCosts(pixels, {part}, grid, 1.0, costs, workspace);
   cv::Point cheapest;
   cv::minMaxLoc(costs[0], nullptr, nullptr, &cheapest);
   EXPECT_EQ(learned_state, cheapest);
@@ -184,7 +187,8 @@ TEST(ComputePartCosts, workspaceOfAnotherGridLeavesNoTrace) {
   RandomInputs random(6);
   const cv::Mat image = texture(random, {60, 60}, CV_8UC3);
   const ColorPalette palette = somePalette(image);
-  const RootHistogram part = learnPart(image, palette, {30, 30}, 12.0);
+  FramePixels pixels(palette, image);
+  const RootHistogram part = learnPart(pixels, {30, 30}, 12.0);
   std::vector<cv::Mat1f> reused;
   PartCostsWorkspace workspace;
   const std::vector<CandidateGrid> grids = {makeCandidateGrid({{30, 30}, {40, 20}}, 12.0, 1, 9.0),
@@ -192,10 +196,10 @@ TEST(ComputePartCosts, workspaceOfAnotherGridLeavesNoTrace) {
   for (const CandidateGrid& grid : grids) {
     SCOPED_TRACE(textOf(grid));
     const std::vector<RootHistogram> parts(grid.corners.size(), part);
-    computePartCosts(image, palette, parts, grid, 2.0, reused, workspace);
+    computePartCosts(pixels, parts, grid, 2.0, reused, workspace);
     std::vector<cv::Mat1f> fresh;
     PartCostsWorkspace fresh_workspace;
-    computePartCosts(image, palette, parts, grid, 2.0, fresh, fresh_workspace);
+    computePartCosts(pixels, parts, grid, 2.0, fresh, fresh_workspace);
     ASSERT_EQ(fresh.size(), reused.size());
     for (size_t k = 0; k < fresh.size(); ++k) {
       EXPECT_EQ("", firstDifference(fresh[k], reused[k])) << "part " << k;
@@ -207,12 +211,13 @@ TEST(LearnPart, countsTheWindowAroundTheCenter) {
   RandomInputs random(7);
   const cv::Mat image = texture(random, {60, 40}, CV_8UC3);
   const ColorPalette palette = somePalette(image);
+  FramePixels pixels(palette, image);
   const cv::Mat1b entries = brute_force::entriesOf(image, palette);
   for (int repeat = 0; repeat < 100; ++repeat) {
     const int side = random.integer(1, 25);
     const cv::Point corner(random.integer(-20, 60), random.integer(-20, 60));
     const cv::Point2d center = cv::Point2d(corner) + 0.5 * cv::Point2d(side - 1, side - 1);
-    const RootHistogram part = learnPart(image, palette, center, side + random.real(-0.49, 0.49));
+    const RootHistogram part = learnPart(pixels, center, side + random.real(-0.49, 0.49));
     const auto window = brute_force::countWindow(entries, palette.size(), corner, side);
     ASSERT_EQ(window.counts.size(), part.size());
     for (size_t entry = 0; entry < part.size(); ++entry) {
@@ -226,6 +231,7 @@ TEST(LearnPart, interpolatesBetweenTheWindowsOfWholePixels) {
   RandomInputs random(8);
   const cv::Mat image = texture(random, {60, 40}, CV_8UC3);
   const ColorPalette palette = somePalette(image);
+  FramePixels pixels(palette, image);
   const cv::Mat1b entries = brute_force::entriesOf(image, palette);
   const auto share = [&](const cv::Point& corner, int side, size_t entry) {
     const auto window = brute_force::countWindow(entries, palette.size(), corner, side);
@@ -236,7 +242,7 @@ TEST(LearnPart, interpolatesBetweenTheWindowsOfWholePixels) {
     const cv::Point corner(random.integer(-10, 50), random.integer(-10, 30));
     const cv::Point2d rest = random.point(0.0, 0.999);
     const cv::Point2d center = cv::Point2d(corner) + rest + 0.5 * cv::Point2d(side - 1, side - 1);
-    const RootHistogram part = learnPart(image, palette, center, side);
+    const RootHistogram part = learnPart(pixels, center, side);
     for (size_t entry = 0; entry < part.size(); ++entry) {
       const double expected =
           (1.0 - rest.x) * (1.0 - rest.y) * share(corner, side, entry) +

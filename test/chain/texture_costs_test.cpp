@@ -10,9 +10,16 @@
 namespace chain_tracker {
 namespace {
 
+/// Textures do not look at colours.
+ColorPalette onlyPalette(const cv::Mat& image) {
+  return {image, cv::Mat1b(image.size(), uchar(255)), cv::Mat1b(image.size(), uchar(0)), {2, 0.0}};
+}
+
 TEST(AddTextureCosts, addHalfTheWeightedDistance) {
   RandomInputs random(1);
   const cv::Mat image = random.noise({90, 70}, CV_8UC3);
+  const ColorPalette palette = onlyPalette(image);
+  FramePixels pixels(palette, image);
   const std::vector<WindowTexture> parts = {{0.5F, -0.3F, 0.1F}, {0.0F, 0.0F, 0.0F}};
   for (int step : {1, 2}) {
     const CandidateGrid grid = makeCandidateGrid({{30, 30}, {52, 41}}, 12.0, step, 6.0);
@@ -20,10 +27,10 @@ TEST(AddTextureCosts, addHalfTheWeightedDistance) {
     std::vector<cv::Mat1f> costs = random.costMaps(2, grid.states);
     std::vector<cv::Mat1f> before = {costs[0].clone(), costs[1].clone()};
     TextureCostsWorkspace workspace;
-    addTextureCosts(image, parts, grid, weight, costs, workspace);
+    addTextureCosts(pixels, parts, grid, weight, costs, workspace);
     std::array<cv::Mat1f, kTextureSize> textures;
     WindowTexturesWorkspace windows;
-    computeWindowTextures(image, grid.lattice, textures, windows);
+    computeWindowTextures(pixels, grid.lattice, textures, windows);
     for (size_t k = 0; k < parts.size(); ++k) {
       for (int row = 0; row < grid.states.height; ++row) {
         for (int column = 0; column < grid.states.width; ++column) {
@@ -44,11 +51,13 @@ TEST(AddTextureCosts, addHalfTheWeightedDistance) {
 TEST(AddTextureCosts, areNothingAtTheWeightNought) {
   RandomInputs random(2);
   const cv::Mat image = random.noise({90, 70}, CV_8UC1);
+  const ColorPalette palette = onlyPalette(image);
+  FramePixels pixels(palette, image);
   const CandidateGrid grid = makeCandidateGrid({{30, 30}}, 12.0, 2, 6.0);
   std::vector<cv::Mat1f> costs = random.costMaps(1, grid.states);
   const cv::Mat1f before = costs[0].clone();
   TextureCostsWorkspace workspace;
-  addTextureCosts(image, {{0.5F, 0.5F, 0.0F}}, grid, 0.0, costs, workspace);
+  addTextureCosts(pixels, {{0.5F, 0.5F, 0.0F}}, grid, 0.0, costs, workspace);
   EXPECT_EQ(0.0, cv::norm(before, costs[0], cv::NORM_INF));
 }
 

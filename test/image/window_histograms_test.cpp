@@ -3,7 +3,6 @@
 
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -34,18 +33,14 @@ std::vector<bool> allEntries(const ColorPalette& palette) {
   return std::vector<bool>(static_cast<size_t>(palette.size()), true);
 }
 
-/// Counts at the positions of the lattice.
-std::vector<cv::Mat1i> onLattice(std::vector<cv::Mat1i> counts, const WindowLattice& lattice) {
-  for (cv::Mat1i& count : counts) count = count(cv::Rect({}, lattice.size)).clone();
-  return counts;
-}
-
 std::vector<cv::Mat1i> histogramsOf(const cv::Mat& image, const ColorPalette& palette,
                                     const WindowLattice& lattice) {
   std::vector<cv::Mat1i> counts;
   WindowHistogramsWorkspace workspace;
-  computeWindowHistograms(image, palette, lattice, allEntries(palette), counts, workspace);
-  return onLattice(std::move(counts), lattice);
+  FramePixels pixels(palette, image);
+  computeWindowHistograms(pixels, lattice, allEntries(palette), counts, workspace);
+  for (cv::Mat1i& count : counts) count = count.clone();
+  return counts;
 }
 
 /// Pixels counted window by window.
@@ -152,8 +147,9 @@ TEST(WindowHistograms, workspaceOfOtherSizesLeavesNoTrace) {
   WindowHistogramsWorkspace workspace;
   const auto check = [&](int type, const ColorPalette& palette, const WindowLattice& lattice) {
     const cv::Mat image = random.noise({30, 25}, type);
-    computeWindowHistograms(image, palette, lattice, allEntries(palette), counts, workspace);
-    expectEqualsCounting(image, palette, lattice, onLattice(counts, lattice));
+    FramePixels pixels(palette, image);
+    computeWindowHistograms(pixels, lattice, allEntries(palette), counts, workspace);
+    expectEqualsCounting(image, palette, lattice, counts);
   };
   check(CV_8UC3, colors, {{-3, -3}, 2, 5, {14, 12}});
   check(CV_8UC1, greys, {{5, 2}, 1, 3, {4, 4}});
@@ -168,19 +164,18 @@ TEST(WindowHistograms, ofWantedEntriesAreThoseOfAll) {
   const WindowLattice lattice{{-3, 4}, 2, 3, {9, 7}};
   const cv::Mat image = random.noise({30, 25}, CV_8UC3);
   const std::vector<cv::Mat1i> all = histogramsOf(image, palette, lattice);
+  FramePixels pixels(palette, image);
   std::vector<cv::Mat1i> counts;
   WindowHistogramsWorkspace workspace;
   for (size_t first = 0; first < all.size(); ++first) {
     std::vector<bool> wanted(all.size(), false);
     for (size_t entry = first; entry < all.size(); entry += 3) wanted[entry] = true;
-    computeWindowHistograms(image, palette, lattice, wanted, counts, workspace);
+    computeWindowHistograms(pixels, lattice, wanted, counts, workspace);
     for (size_t entry = first; entry < all.size(); entry += 3) {
-      const cv::Mat1i seen = counts[entry](cv::Rect({}, lattice.size));
-      EXPECT_EQ(0, cv::countNonZero(all[entry] != seen)) << entry;
+      EXPECT_EQ(0, cv::countNonZero(all[entry] != counts[entry])) << entry;
     }
   }
-  computeWindowHistograms(image, palette, lattice, std::vector<bool>(all.size(), false), counts,
-                          workspace);
+  computeWindowHistograms(pixels, lattice, std::vector<bool>(all.size(), false), counts, workspace);
   EXPECT_EQ(all.size(), counts.size());
 }
 

@@ -13,8 +13,8 @@
 namespace chain_tracker {
 namespace {
 
-/// Mean of the pixels of a rectangle, one by one; the image's border goes on outside it.
-double meanOf(const cv::Mat& image, const cv::Rect& rectangle) {
+/// Sum of the pixels of a rectangle, one by one; the image's border goes on outside it.
+double sumOf(const cv::Mat& image, const cv::Rect& rectangle) {
   cv::Mat1b grey = image;
   if (image.channels() == 3) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
   double sum = 0.0;
@@ -23,18 +23,30 @@ double meanOf(const cv::Mat& image, const cv::Rect& rectangle) {
       sum += grey(std::clamp(y, 0, grey.rows - 1), std::clamp(x, 0, grey.cols - 1));
     }
   }
-  return sum / rectangle.area();
+  return sum;
+}
+
+/// Mean over so many cells in each direction of the cells' rounded means.
+double meanOfCells(const cv::Mat& image, const cv::Point& corner, int cells, int step) {
+  double sum = 0.0;
+  for (int row = 0; row < cells; ++row) {
+    for (int column = 0; column < cells; ++column) {
+      const cv::Rect cell(corner.x + column * step, corner.y + row * step, step, step);
+      sum += std::floor(sumOf(image, cell) / cell.area() + 0.5);
+    }
+  }
+  return sum / (cells * cells);
 }
 
 /// The definition, window by window.
 WindowTexture slowTexture(const cv::Mat& image, const WindowLattice& lattice,
                           const cv::Point& window) {
-  const int half = lattice.window_cells / 2 * lattice.step;
+  const int half = lattice.window_cells / 2;
   if (half == 0) return {0.0F, 0.0F, 0.0F};
-  const int far = lattice.window_cells * lattice.step - half;
+  const int far = (lattice.window_cells - half) * lattice.step;
   const cv::Point corner = lattice.origin + window * lattice.step;
   const auto quadrant = [&](int x, int y) {
-    return meanOf(image, {corner.x + x, corner.y + y, half, half});
+    return meanOfCells(image, corner + cv::Point(x, y), half, lattice.step);
   };
   const double ul = quadrant(0, 0);
   const double ur = quadrant(far, 0);
@@ -53,12 +65,15 @@ TEST(ComputeWindowTextures, equalTheDefinitionInEveryWindow) {
   std::array<cv::Mat1f, kTextureSize> textures;
   for (int type : {CV_8UC3, CV_8UC1}) {
     const cv::Mat image = random.noise({47, 39}, type);
+    const ColorPalette palette(image, cv::Mat1b(image.size(), uchar(255)),
+                               cv::Mat1b(image.size(), uchar(0)), {2, 0.0});
+    FramePixels pixels(palette, image);
     for (const cv::Point& origin : {cv::Point(5, 4), cv::Point(-20, -9), cv::Point(30, 28),
                                     cv::Point(300, 100), cv::Point(-90, 10)}) {
-      for (int step : {1, 3}) {
+      for (int step : {1, 2, 3}) {
         for (int cells : {1, 2, 5, 8}) {
           const WindowLattice lattice{origin, step, cells, {7, 5}};
-          computeWindowTextures(image, lattice, textures, workspace);
+          computeWindowTextures(pixels, lattice, textures, workspace);
           for (int row = 0; row < lattice.size.height; ++row) {
             for (int column = 0; column < lattice.size.width; ++column) {
               const WindowTexture expected = slowTexture(image, lattice, {column, row});

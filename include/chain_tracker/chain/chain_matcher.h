@@ -35,8 +35,8 @@ struct SegmentCandidates {
 };
 
 /// The springs of a segment under a pose, sampled between the candidates of its nodes.
-std::vector<EdgeStencil> sampleEdges(const SegmentLayout& segment,
-                                     const SegmentCandidates& candidates, const SegmentPose& pose);
+ChainEdges sampleEdges(const SegmentLayout& segment, const SegmentCandidates& candidates,
+                       const SegmentPose& pose);
 
 /// The same segment in every argument has the same index.
 struct MatchingProblem {

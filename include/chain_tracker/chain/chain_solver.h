@@ -11,22 +11,24 @@
 
 #include <opencv2/core.hpp>
 
-#include "chain_tracker/chain/edge_stencil.h"
+#include "chain_tracker/chain/chain_edges.h"
 #include "chain_tracker/chain/min_convolution.h"
 
 namespace chain_tracker {
 
 /// Kept from call to call so that no memory is allocated once sizes have settled.
 struct ChainSolverWorkspace {
-  std::vector<cv::Mat1f> forward;   ///< unary_k plus the message from part k - 1
-  std::vector<cv::Mat1f> backward;  ///< the message from part k + 1
+  std::vector<cv::Mat1f> forward;       ///< unary_k plus the message from part k - 1
+  std::vector<cv::Mat1f> best_forward;  ///< the same, of an earlier pass
+  std::vector<cv::Mat1f> backward;      ///< the message from part k + 1
   cv::Mat1f sum;
-  MinConvolutionWorkspace convolution;
+  cv::Mat1f zeros;
+  MinConvolution convolution;
 };
 
 /// Cost of the best chain; +infinity if the springs allow none. Fills workspace.forward.
-/// `unary`: one map a part, all of one size; `edges`: one stencil fewer.
-double forwardPass(const std::vector<cv::Mat1f>& unary, const std::vector<EdgeStencil>& edges,
+/// `unary`: one map a part, all of one size; `edges`: one fewer.
+double forwardPass(const std::vector<cv::Mat1f>& unary, const ChainEdges& edges,
                    ChainSolverWorkspace& workspace);
 
 /// The state of least cost; the first one in row-major order among equals.
@@ -34,12 +36,12 @@ cv::Point cheapestState(const cv::Mat1f& map);
 
 /// States (x column, y row) of the best chain whose last part is in state `end`, from
 /// workspace.forward as forwardPass() left it. The cost of that state must be finite.
-std::vector<cv::Point> traceBack(const std::vector<EdgeStencil>& edges, const cv::Point& end,
+std::vector<cv::Point> traceBack(const ChainEdges& edges, const cv::Point& end,
                                  const ChainSolverWorkspace& workspace);
 
 /// marginals[k](q): the cost of the best chain that has part k in state q. Needs
 /// workspace.forward.
-void minMarginals(const std::vector<cv::Mat1f>& unary, const std::vector<EdgeStencil>& edges,
+void minMarginals(const std::vector<cv::Mat1f>& unary, const ChainEdges& edges,
                   std::vector<cv::Mat1f>& marginals, ChainSolverWorkspace& workspace);
 
 }  // namespace chain_tracker

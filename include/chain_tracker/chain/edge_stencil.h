@@ -49,4 +49,7 @@ EdgeStencil sampleEdge(const EdgePotential& potential, int step, const cv::Point
 EdgeStencil betweenStates(const EdgeStencil& stencil, const cv::Point& origin,
                           const cv::Size& reach);
 
+/// The stencil of the same edge seen from its other end.
+EdgeStencil reversed(EdgeStencil stencil);
+
 }  // namespace chain_tracker

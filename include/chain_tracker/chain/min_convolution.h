@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// The message over an edge of the chain: out(q) = min over offsets o of in(q - o) + cost(o).
+/// The message over an edge of the chain: out(q) = min over offsets o of in(q - o) + cost(o), plus
+/// what the receiving part has to say.
 /// States outside `in` are forbidden. O(states x offsets of the stencil), so linear in the states.
 #pragma once
 
@@ -12,21 +13,30 @@
 
 namespace chain_tracker {
 
-struct MinConvolutionWorkspace {
-  std::vector<float> padded;           ///< the input with a margin of infinities
-  cv::Size size;                       ///< of the input
-  cv::Size margin;                     ///< to each side of it
-  std::ptrdiff_t stride = 0;           ///< of the rows of `padded`
-  std::vector<std::ptrdiff_t> shifts;  ///< of the stencil's offsets in `padded`
-  std::vector<float> costs;
+class MinConvolution {
+ public:
+  /// What the next maps are convolved with, and their size. Offsets larger than the map are allowed
+  /// and reach nothing. O(offsets).
+  void setStencil(const EdgeStencil& stencil, const cv::Size& size);
+
+  /// `in` and `added` must have the size set, and `out` gets it; +infinity where no state can be
+  /// reached. `out` may be `in`, but not `added`.
+  void run(const cv::Mat1f& in, const cv::Mat1f& added, cv::Mat1f& out);
+
+ private:
+  void layOut(const cv::Size& margin);
+  cv::Size listOffsets(const EdgeStencil& stencil);
+  const float* pad(const cv::Mat1f& in);
+  void runOnBlocks(const float* in, const cv::Mat1f& added, cv::Mat1f& out) const;
+
+  cv::Size size_;
+  cv::Size margin_;                     ///< to each side of the input
+  std::ptrdiff_t stride_ = 0;           ///< of the rows of the padded input
+  std::vector<float> padded_;           ///< the input with a margin of infinities
+  std::vector<std::ptrdiff_t> shifts_;  ///< of the stencil's offsets in the padded input
+  std::vector<float> costs_;
+  cv::Mat1f enlarged_added_;  ///< for maps smaller than a block
+  cv::Mat1f enlarged_out_;
 };
-
-/// `out` gets the size of `in`; +infinity where no state can be reached.
-/// Offsets larger than the map are allowed and reach nothing.
-void minConvolve(const cv::Mat1f& in, const EdgeStencil& stencil, cv::Mat1f& out,
-                 MinConvolutionWorkspace& workspace);
-
-/// The stencil of the same edge seen from its other end.
-EdgeStencil reversed(EdgeStencil stencil);
 
 }  // namespace chain_tracker

@@ -7,7 +7,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "chain_tracker/image/color_palette.h"
+#include "chain_tracker/image/frame_pixels.h"
 #include "chain_tracker/image/window_histograms.h"
 
 namespace chain_tracker {
@@ -57,14 +57,13 @@ struct PartCostsWorkspace {
 /// histogram and that of the window at that state: in [0, weight].
 /// O(pixels of the lattice, or of the parts' lattices if these are fewer, + parts x states x
 /// palette entries of a part).
-void computePartCosts(const cv::Mat& image, const ColorPalette& palette,
-                      const std::vector<RootHistogram>& parts, const CandidateGrid& grid,
-                      double weight, std::vector<cv::Mat1f>& costs, PartCostsWorkspace& workspace);
+void computePartCosts(FramePixels& pixels, const std::vector<RootHistogram>& parts,
+                      const CandidateGrid& grid, double weight, std::vector<cv::Mat1f>& costs,
+                      PartCostsWorkspace& workspace);
 
 /// Histogram of the window of `side` [px], rounded, around `center`: interpolated between the
 /// windows of whole pixels, so that matching finds the very centre again and not the pixel next to
 /// it.
-RootHistogram learnPart(const cv::Mat& image, const ColorPalette& palette,
-                        const cv::Point2d& center, double side);
+RootHistogram learnPart(FramePixels& pixels, const cv::Point2d& center, double side);
 
 }  // namespace chain_tracker

@@ -16,21 +16,19 @@ struct SegmentPose {
   double scale = 1.0;
 };
 
-/// Poses tried around a middle one: a grid over orientation and log scale, or its middle row and
-/// column alone.
+/// Poses tried around a middle one: of a grid over orientation and log scale, its middle row and
+/// column, as objects seldom turn and rescale by several steps at once, and the number of poses
+/// then is a sum and no product.
 struct PoseGrid {
   SegmentPose middle;
   int orientations = 1;           ///< odd
   double orientation_step = 0.0;  ///< [rad]
   int scales = 1;                 ///< odd
   double scale_step = 0.0;        ///< of the log scale
-  bool is_cross = false;          ///< only poses that differ from the middle in one of both
 
-  size_t size() const {
-    return static_cast<size_t>(is_cross ? orientations + scales - 1 : orientations * scales);
-  }
-  /// Where in the grid a pose lies: column (scale) and row (orientation). Row by row, but a cross
-  /// has its middle column first.
+  size_t size() const { return static_cast<size_t>(orientations + scales - 1); }
+  /// Where in the grid a pose lies: column (scale) and row (orientation). All orientations come
+  /// first, then the other scales.
   cv::Point cellOf(size_t index) const;
   /// `row` and `column` may lie between poses.
   SegmentPose at(double row, double column) const;

@@ -20,7 +20,7 @@ struct TextureCostsWorkspace {
 
 /// costs[k](row, column) += weight / 2 * |texture of part k - texture of the window at that state|,
 /// in [0, weight]. O(pixels of the lattice + parts x states).
-void addTextureCosts(const cv::Mat& image, const std::vector<WindowTexture>& parts,
+void addTextureCosts(FramePixels& pixels, const std::vector<WindowTexture>& parts,
                      const CandidateGrid& grid, double weight, std::vector<cv::Mat1f>& costs,
                      TextureCostsWorkspace& workspace);
 

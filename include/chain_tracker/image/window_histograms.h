@@ -7,7 +7,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "chain_tracker/image/color_palette.h"
+#include "chain_tracker/image/frame_pixels.h"
 #include "chain_tracker/image/window_responses.h"
 
 namespace chain_tracker {
@@ -36,20 +36,19 @@ struct WindowLattice {
 struct WindowHistogramsWorkspace {
   WindowHistogramsWorkspace();
 
-  cv::Mat1b entries;
-  std::vector<cv::Mat1b> small_planes;  ///< as many as were ever wanted, one for what is unwanted
-  std::vector<CellPlane> planes;        ///< the same for cells of more than 255 pixels
+  cv::Mat1b small_cells;  ///< the counts of all wanted entries side by side
+  CellPlane cells;        ///< the same for cells of more than 255 pixels
   WindowResponses sums;
 };
 
 /// counts[entry](row, column): pixels of the window that have that palette entry, for the entries
-/// that are wanted: maps of at least lattice.size, valid until the workspace is used again. The
+/// that are wanted: maps of lattice.size, valid until the workspace is used again. The
 /// other maps mean nothing.
-/// The sums over windows are those of the Haar front end, a plane for every wanted entry.
-/// `wanted` has an element for every palette entry.
-/// O(pixels + wanted entries x cells).
-void computeWindowHistograms(const cv::Mat& image, const ColorPalette& palette,
-                             const WindowLattice& lattice, const std::vector<bool>& wanted,
-                             std::vector<cv::Mat1i>& counts, WindowHistogramsWorkspace& workspace);
+/// The sums over windows are those of the Haar front end, on the cells of all wanted entries side
+/// by side: one wide plane takes less time than many narrow ones. `wanted` has an element for every
+/// palette entry. O(pixels + wanted entries x cells).
+void computeWindowHistograms(FramePixels& pixels, const WindowLattice& lattice,
+                             const std::vector<bool>& wanted, std::vector<cv::Mat1i>& counts,
+                             WindowHistogramsWorkspace& workspace);
 
 }  // namespace chain_tracker

@@ -27,27 +27,24 @@ class WindowResponses {
   WindowResponses& operator=(WindowResponses&&) noexcept;
   ~WindowResponses();
 
-  /// responses[plane * features + feature] of the window at every cell, exactly, for the first
-  /// `count` planes, at least 1; cells outside the planes count as 0. All planes have one size; no
-  /// cell exceeds `max_cell`; the responses must fit in 32 bits. The maps live until the next call;
-  /// maps behind these mean nothing. Allocates nothing after the first calls for a number of cells
-  /// and a size. O(planes * cells * passes).
-  const std::vector<cv::Mat1i>& compute(const std::vector<CellPlane>& planes, size_t count,
-                                        int window_cells, int max_cell);
+  /// responses[feature] of the window at every cell, exactly; cells outside the plane count as 0.
+  /// No cell exceeds `max_cell`; the responses must fit in 32 bits. The maps live until the next
+  /// call; maps behind these mean nothing. Allocates nothing after the first calls for a number of
+  /// cells and a size. O(cells * passes).
+  const std::vector<cv::Mat1i>& compute(const CellPlane& cells, int window_cells, int max_cell);
   /// The same for cells of at most 255, which need no conversion.
-  const std::vector<cv::Mat1i>& compute(const std::vector<cv::Mat1b>& planes, size_t count,
-                                        int window_cells, int max_cell);
+  const std::vector<cv::Mat1i>& compute(const cv::Mat1b& cells, int window_cells, int max_cell);
 
  private:
   struct Engine;
 
   Engine& engineFor(int window_cells, int max_byte, const cv::Size& size);
-  void splitIntoBytes(const std::vector<CellPlane>& planes, size_t count, int bytes);
-  Engine& run(const std::vector<cv::Mat1b>& planes, size_t count, int window_cells, int max_byte);
+  void addPlane(const cv::Mat1b& plane);
+  Engine& run(int window_cells, int max_byte, const cv::Size& size);
 
   EnsembleOf ensemble_of_;
   std::map<std::pair<int, int>, std::unique_ptr<Engine>> engines_;  ///< by cells and largest byte
-  std::vector<cv::Mat1b> bytes_;  ///< the lowest of all planes, then the next ones
+  std::vector<cv::Mat1b> bytes_;  ///< of the cells, the lowest ones first
   std::vector<cv::Mat1i> responses_;
   std::vector<haar::BytePlane> inputs_;
   std::vector<haar::ResponsePlane> outputs_;

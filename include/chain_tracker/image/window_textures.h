@@ -32,18 +32,16 @@ WindowTexture textureOf(float upper_left, float upper_right, float lower_left, f
 struct WindowTexturesWorkspace {
   WindowTexturesWorkspace();
 
-  cv::Mat1b grey;
-  cv::Mat1b pixels;
-  std::vector<CellPlane> cells;  ///< one plane: sums of grey levels
+  cv::Mat1b cells;  ///< means of grey levels
   WindowResponses features;
 };
 
 /// textures[i](row, column) = element i of the window's texture. A quadrant has half of the
 /// window's cells in each direction; an odd window's middle row and column count for neither.
-/// Outside the image its border pixels go on. `image`: CV_8UC3 (BGR) or CV_8UC1.
-/// The features are those of the Haar front end on the cells.
+/// Outside the image its border pixels go on. The features are those of the Haar front end on the
+/// cells, whose means are rounded to whole grey levels.
 /// O(pixels + windows). Windows of one cell have no quadrants: their texture is null.
-void computeWindowTextures(const cv::Mat& image, const WindowLattice& lattice,
+void computeWindowTextures(FramePixels& pixels, const WindowLattice& lattice,
                            std::array<cv::Mat1f, kTextureSize>& textures,
                            WindowTexturesWorkspace& workspace);
 
