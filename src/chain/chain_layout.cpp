@@ -173,18 +173,15 @@ std::vector<cv::Point2d> resample(const std::vector<cv::Point2d>& polyline, int 
   return samples;
 }
 
-SegmentLayout layOutPolyline(const SegmentModel& model, const std::vector<cv::Point2d>& points) {
-  if (points.size() < 2) {
-    refuse("segment " + model.name + " was given " + std::to_string(points.size()) +
-           " points, must be a polyline of at least 2");
-  }
-  for (size_t i = 1; i < points.size(); ++i) requireApart(points, i - 1, i);
-  const std::vector<cv::Point2d> centers = resample(points, model.parts);
+/// A chain along the centres, whose windows are `window` mean steps wide; its box bounds the
+/// points.
+SegmentLayout layOutAlong(const std::vector<cv::Point2d>& centers, double window,
+                          const std::vector<cv::Point2d>& points) {
   cv::Point2d mean;
   for (const cv::Point2d& center : centers) mean += center / double(centers.size());
   SegmentLayout segment;
   segment.image_from_segment = {directionOf(points.back() - points.front()), 1.0, mean};
-  const double side = model.window * lengthOf(points) / (model.parts - 1);
+  const double side = window * lengthOf(points) / static_cast<double>(centers.size() - 1);
   for (const cv::Point2d& center : centers) {
     segment.parts.push_back({segment.image_from_segment.applyInverse(center), side});
   }
@@ -193,6 +190,24 @@ SegmentLayout layOutPolyline(const SegmentModel& model, const std::vector<cv::Po
   segment.corners = applyInverseAll(segment.image_from_segment,
                                     {box.tl(), {high.x, box.y}, high, {box.x, high.y}});
   return segment;
+}
+
+void requirePolyline(const SegmentModel& model, const std::vector<cv::Point2d>& points) {
+  if (points.size() < 2) {
+    refuse("segment " + model.name + " was given " + std::to_string(points.size()) +
+           " points, must be a polyline of at least 2");
+  }
+  for (size_t i = 1; i < points.size(); ++i) requireApart(points, i - 1, i);
+}
+
+SegmentLayout layOutPolyline(const SegmentModel& model, const std::vector<cv::Point2d>& points) {
+  requirePolyline(model, points);
+  return layOutAlong(resample(points, model.parts), model.window, points);
+}
+
+SegmentLayout layOutPoints(const SegmentModel& model, const std::vector<cv::Point2d>& points) {
+  requirePolyline(model, points);
+  return layOutAlong(points, model.window, points);
 }
 
 std::vector<EdgeLayout> edgesOf(const SegmentLayout& segment, const SegmentModel& model) {
@@ -205,9 +220,19 @@ std::vector<EdgeLayout> edgesOf(const SegmentLayout& segment, const SegmentModel
   return edges;
 }
 
+SegmentLayout layOutShape(const SegmentModel& model, const std::vector<cv::Point2d>& points) {
+  switch (model.layout) {
+    case Layout::kDeformable:
+      return layOutPolyline(model, points);
+    case Layout::kPoints:
+      return layOutPoints(model, points);
+    default:
+      return layOutRectangle(model, points);
+  }
+}
+
 SegmentLayout layOutSegment(const SegmentModel& model, const std::vector<cv::Point2d>& points) {
-  SegmentLayout segment = model.layout == Layout::kDeformable ? layOutPolyline(model, points)
-                                                              : layOutRectangle(model, points);
+  SegmentLayout segment = layOutShape(model, points);
   segment.name = model.name;
   segment.layout = model.layout;
   segment.points = applyInverseAll(segment.image_from_segment, points);
@@ -248,9 +273,11 @@ std::vector<SegmentLayout> layOutJoined(const ChainModel& model,
   return segments;
 }
 
-/// A stroke as wide as the segments are on average, or the rectangle of a single one.
+/// A stroke as wide as the segments are on average, or as the windows around points; the rectangle
+/// of a single segment of cells.
 Silhouette silhouetteOf(const ChainModel& model, const std::vector<SegmentLayout>& segments,
                         const std::vector<cv::Point2d>& points) {
+  if (segments.front().layout == Layout::kPoints) return {points, segments.front().parts[0].side};
   if (segments.size() == 1 && segments.front().layout != Layout::kDeformable) {
     return {applyAll(segments.front().image_from_segment, segments.front().corners), 0.0};
   }

@@ -72,9 +72,11 @@ void checkJoints(const ChainModel& model, FaultList& faults) {
   }
   if (model.segments.size() < 2 && !model.segment_per_edge) return;
   for (size_t i = 0; i < model.segments.size(); ++i) {
-    if (model.segments[i].layout != Layout::kPlanar) continue;
-    faults.add("segments[" + std::to_string(i) +
-               "]/layout is planar, must be elongated or deformable where segments are joined");
+    const Layout layout = model.segments[i].layout;
+    if (layout != Layout::kPlanar && layout != Layout::kPoints) continue;
+    faults.add("segments[" + std::to_string(i) + "]/layout is " +
+               (layout == Layout::kPlanar ? "planar" : "points") +
+               ", must be elongated or deformable where segments are joined");
   }
 }
 

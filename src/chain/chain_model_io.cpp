@@ -78,7 +78,8 @@ class Reader {
   void read(Layout& value) const {
     const std::map<std::string, Layout> layouts = {{"elongated", Layout::kElongated},
                                                    {"planar", Layout::kPlanar},
-                                                   {"deformable", Layout::kDeformable}};
+                                                   {"deformable", Layout::kDeformable},
+                                                   {"points", Layout::kPoints}};
     const std::string name = as<std::string>("text");
     const auto layout = layouts.find(name);
     if (layout == layouts.end()) {

@@ -139,7 +139,7 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       pixels_(appearance_.palette()) {
   for (const PartState& part : initial.parts) initial_orientations_.push_back(part.orientation);
   for (const SegmentLayout& segment : layout_) {
-    const bool is_grid = segment.layout != Layout::kDeformable;
+    const bool is_grid = segment.layout == Layout::kElongated || segment.layout == Layout::kPlanar;
     variance_shares_.insert(variance_shares_.end(), segment.parts.size(),
                             is_grid ? kCellVariance : 1.0);
   }

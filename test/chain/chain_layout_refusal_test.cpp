@@ -32,8 +32,10 @@ TEST(LayOut, refusesAWrongNumberOfPoints) {
     EXPECT_EQ("", omissionsOf(refusal, {"seg", std::to_string(count), "4 corners"}));
   }
   for (size_t count : {0U, 1U}) {
-    const std::string refusal = layoutRefusal(Layout::kDeformable, somePoints(count));
-    EXPECT_EQ("", omissionsOf(refusal, {"seg", std::to_string(count), "at least 2"}));
+    for (Layout layout : {Layout::kDeformable, Layout::kPoints}) {
+      const std::string refusal = layoutRefusal(layout, somePoints(count));
+      EXPECT_EQ("", omissionsOf(refusal, {"seg", std::to_string(count), "at least 2"}));
+    }
   }
 }
 
@@ -50,7 +52,7 @@ TEST(LayOut, refusesPointsThatCoincide) {
 
 TEST(LayOut, refusesPointsThatAreNotFinite) {
   for (double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
-    for (Layout layout : {Layout::kElongated, Layout::kDeformable}) {
+    for (Layout layout : {Layout::kElongated, Layout::kDeformable, Layout::kPoints}) {
       EXPECT_EQ("", omissionsOf(layoutRefusal(layout, {{bad, 7}, {50, 7}}), {"point 0", "finite"}));
       EXPECT_EQ(
           "", omissionsOf(layoutRefusal(layout, {{5, 7}, {50, bad}}), {"point 1", "50", "finite"}));

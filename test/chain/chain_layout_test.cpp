@@ -216,6 +216,23 @@ TEST(LayOut, deformablePartsFollowThePolylineInEqualSteps) {
   }
 }
 
+TEST(LayOut, pointsAreParts) {
+  const std::vector<cv::Point2d> points = {{10, 10}, {50, 40}, {20, 60}, {-20, 30}};
+  ChainModel model = modelOf(Layout::kPoints, 24);
+  model.segments[0].window = 0.6;
+  const ChainLayout layout = layOut(model, points);
+  const SegmentLayout& segment = layout.segments[0];
+  ASSERT_EQ(points.size(), segment.parts.size());
+  double length = 0.0;
+  for (size_t k = 0; k < points.size(); ++k) {
+    expectNear(points[k], segment.image_from_segment.apply(segment.parts[k].position));
+    if (k > 0) length += cv::norm(points[k] - points[k - 1]);
+  }
+  for (const PartLayout& part : segment.parts) EXPECT_NEAR(0.6 * length / 3.0, part.side, 1e-9);
+  EXPECT_EQ(points, layout.silhouette.points);
+  EXPECT_NEAR(segment.parts.front().side, layout.silhouette.stroke, 1e-9);
+}
+
 TEST(LayOut, edgesLeadFromEachPartToTheNext) {
   ChainModel model = modelOf(Layout::kDeformable, 9);
   model.segments[0].stretch_sigma = 0.07;

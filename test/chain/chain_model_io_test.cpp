@@ -139,6 +139,7 @@ TEST(ParseChainModel, readsEveryLayout) {
   EXPECT_EQ(Layout::kElongated, layout("elongated"));
   EXPECT_EQ(Layout::kPlanar, layout("planar"));
   EXPECT_EQ(Layout::kDeformable, layout("deformable"));
+  EXPECT_EQ(Layout::kPoints, layout("points"));
 }
 
 TEST(ParseChainModel, tellsAllFaultsOfRangeAtOnce) {

@@ -207,6 +207,9 @@ TEST(FaultsOf, onlyLinesCanBeJoined) {
   model.segments[1].layout = Layout::kPlanar;
   ASSERT_EQ(1U, faultsOf(model).size());
   EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"segments[1]/layout", "planar", "elongated"}));
+  model.segments[1].layout = Layout::kPoints;
+  ASSERT_EQ(1U, faultsOf(model).size());
+  EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"segments[1]/layout", "points", "elongated"}));
 }
 
 TEST(FaultsOf, foundMustNotBeBelowLost) {

@@ -100,8 +100,41 @@ TEST(ShippedPlasticBag, BoxStaysOnTheBag) {
   EXPECT_GT(trackScene("plastic_bag", "plastic_bag", 1).iou, 0.73);
 }
 
+/// Points of the box's face, there and back between its corners.
+std::vector<cv::Point2d> facePoints(const std::vector<cv::Point2d>& corners) {
+  std::vector<cv::Point2d> points;
+  for (int row = 0; row < 3; ++row) {
+    for (int i = 0; i < 3; ++i) {
+      const double x = 0.25 * (1 + (row % 2 == 0 ? i : 2 - i));
+      const double y = 0.25 * (1 + row);
+      points.push_back((1.0 - y) * ((1.0 - x) * corners[0] + x * corners[1]) +
+                       y * ((1.0 - x) * corners[3] + x * corners[2]));
+    }
+  }
+  return points;
+}
+
+TEST(ShippedPoints, StayWhereTheyWerePutOnTheFace) {
+  SceneOptions options;
+  options.seed = 1;
+  const auto scene = makeScene("box", options);
+  const SceneFrame first = scene->render(0);
+  ChainTracker tracker(loadChainModel(kModels + "/points.yaml"), first.image,
+                       facePoints(first.points));
+  ASSERT_EQ(9U, tracker.state().parts.size());
+  double error = 0.0;
+  for (int i = 1; i <= kFrames; ++i) {
+    const SceneFrame frame = scene->render(i);
+    const ChainState& state = tracker.update(frame.image);
+    EXPECT_NE(TrackingStatus::kLost, state.status) << "frame " << i;
+    error += meanDistance(state.points, facePoints(frame.points)) / kFrames;
+  }
+  EXPECT_LT(error, 1.4);
+  RecordProperty("mean_point_error_px", std::to_string(error));
+}
+
 TEST(ShippedModels, AllAreTracked) {
-  std::set<std::string> tracked = {"plastic_bag"};
+  std::set<std::string> tracked = {"plastic_bag", "points"};
   for (const Case& which : cases()) tracked.insert(which.model);
   std::set<std::string> shipped;
   for (const auto& entry : std::filesystem::directory_iterator(kModels)) {

@@ -17,13 +17,16 @@ enum class Layout {
   kElongated,   ///< square cells over a long rectangle: its two ends and `aspect`, or four corners
   kPlanar,      ///< square cells over a rectangle given by its four corners; not in a joined chain
   kDeformable,  ///< equal steps along a polyline
+  kPoints,      ///< the points given, which keep their arrangement; not in a joined chain
 };
 
 /// One segment: a chain of parts that turns and rescales as one (thesis ch. 3.2.2).
 struct SegmentModel {
   std::string name = "body";
   Layout layout = Layout::kElongated;
-  int parts = 24;       ///< wanted number of parts; a grid of cells comes as near as it can
+  /// Wanted number of parts; a grid of cells comes as near as it can. kPoints has as many as it is
+  /// given.
+  int parts = 24;
   double aspect = 0.4;  ///< width over length of an elongated object given by its two ends
   /// How far a grid of cells reaches beyond the outline, so that windows straddle it: fraction of
   /// the square root of the area. Means nothing to a deformable segment.

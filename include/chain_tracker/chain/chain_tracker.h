@@ -22,7 +22,8 @@ class ChainTracker {
  public:
   /// Learns the object at `points` [px] in `image` (CV_8UC3 BGR or CV_8UC1).
   /// The layouts say what points they take: two ends or four corners (elongated), four corners
-  /// (planar), a polyline of at least two points (deformable).
+  /// (planar), a polyline of at least two points (deformable), the centres of at
+  /// least two parts (points).
   /// Throws std::invalid_argument naming the thing, its value and what is allowed: a faulty model,
   /// an empty image or one of another type, one smaller than a part, a wrong number of points,
   /// points that coincide, are not finite or lie outside the image.
