@@ -156,15 +156,15 @@ ChainState ChainSearch::find(const ChainState& sought, const SearchRange& range)
   found.times = StepTimes();
   const Candidates coarse = coarseCandidates();
   found.times.part_costs = watch.lap();
-  const ChainMatch match = matched(coarse.poses, coarse.segments);
+  const ChainMatch match = matched(coarse.poses, coarse.segments, coarse_workspace_);
   found.times.matching = watch.lap();
   if (!match.found()) return found;
   const Candidates fine = fineCandidates(coarse, match);
-  const ChainMatch refined = matched(fine.poses, middlesOf(fine.segments));
+  const ChainMatch refined = matched(fine.poses, middlesOf(fine.segments), pose_workspace_);
   if (refined.found()) {
     const std::vector<SegmentPose> poses = interpolatedPoses(fine.poses, refined);
     const std::vector<RefinedPart> parts =
-        refineChain(layout_, poses, fine.segments, solver_workspace_);
+        refineChain(layout_, poses, fine.segments, fine_workspace_);
     found.times.refinement = watch.lap();
     fillIn(parts, poses, found);
     found.energy = refined.energy;
@@ -328,8 +328,9 @@ double ChainSearch::turnOf(size_t part) const {
 }
 
 ChainMatch ChainSearch::matched(const std::vector<PoseGrid>& poses,
-                                const std::vector<SegmentCandidates>& candidates) {
-  return matchChain({layout_, model_, previous_, poses, candidates}, solver_workspace_);
+                                const std::vector<SegmentCandidates>& candidates,
+                                ChainSolverWorkspace& workspace) const {
+  return matchChain({layout_, model_, previous_, poses, candidates}, workspace);
 }
 
 void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,

@@ -72,7 +72,8 @@ class ChainSearch {
   void robustify(size_t part, const cv::Point2d& origin, int step, cv::Mat1f& costs) const;
   double turnOf(size_t part) const;
   ChainMatch matched(const std::vector<PoseGrid>& poses,
-                     const std::vector<SegmentCandidates>& candidates);
+                     const std::vector<SegmentCandidates>& candidates,
+                     ChainSolverWorkspace& workspace) const;
   void fillIn(const std::vector<RefinedPart>& parts, const std::vector<SegmentPose>& poses,
               ChainState& found) const;
   void fitSegment(size_t m, const SegmentPose& searched, ChainState& state) const;
@@ -91,7 +92,10 @@ class ChainSearch {
   FramePixels pixels_;
   PartCostsWorkspace cost_workspace_;
   TextureCostsWorkspace texture_workspace_;
-  ChainSolverWorkspace solver_workspace_;
+  // One for each number of states, which would else be allocated anew.
+  ChainSolverWorkspace coarse_workspace_;
+  ChainSolverWorkspace pose_workspace_;
+  ChainSolverWorkspace fine_workspace_;
 };
 
 }  // namespace chain_tracker

@@ -97,6 +97,7 @@ EdgeStencil sampleEdge(const EdgePotential& potential, int step, const cv::Point
   const double widest_turn = std::min(CV_PI, kCutOffSigmas * potential.direction_sigma);
   const double least_cosine = std::cos(widest_turn) - kCosineSlack;
   EdgeStencil stencil;
+  stencil.reserve(static_cast<size_t>(bounds.area() / (step * step)) + 1);
   for (int rows = first(bounds.y); rows <= last(bounds.br().y); ++rows) {
     for (int columns = first(bounds.x); columns <= last(bounds.br().x); ++columns) {
       const cv::Point2d edge = cv::Point2d(columns * step, rows * step) + shift;

@@ -13,11 +13,6 @@ namespace {
 constexpr int kLargestByte = std::numeric_limits<uchar>::max();
 constexpr size_t kEntries = 256;
 
-/// The whole window.
-haar::FeatureEnsemble windowSum(int window_cells) {
-  return {"window", {{"sum", {{0, 0, window_cells, window_cells, 1}}}}};
-}
-
 /// Palette entries that are counted, in the order of the palette.
 std::vector<size_t> listWanted(const std::vector<bool>& wanted) {
   std::vector<size_t> entries;
@@ -55,14 +50,12 @@ const cv::Mat1i& sumWindows(const cv::Mat1b& entries, const WindowLattice& latti
   const int cell_area = lattice.step * lattice.step;
   const auto sum = [&](auto& plane) -> const cv::Mat1i& {
     const auto counts = countCells(entries, lattice.step, wanted, columns, plane);
-    return workspace.sums.compute(counts, lattice.window_cells, cell_area).front();
+    return workspace.sums.compute(counts, lattice.window_cells, cell_area);
   };
   return cell_area <= kLargestByte ? sum(workspace.small_cells) : sum(workspace.cells);
 }
 
 }  // namespace
-
-WindowHistogramsWorkspace::WindowHistogramsWorkspace() : sums(windowSum) {}
 
 void computeWindowHistograms(FramePixels& pixels, const WindowLattice& lattice,
                              const std::vector<bool>& wanted, std::vector<cv::Mat1i>& counts,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include <opencv2/imgproc.hpp>
 
@@ -14,53 +13,42 @@
 namespace chain_tracker {
 namespace {
 
-/// The window's quadrants without the middle row and column of an odd window: left minus right,
-/// upper minus lower, and diagonal minus diagonal.
-haar::FeatureEnsemble quadrantFeatures(int window_cells) {
-  const int half = window_cells / 2;
-  const int far = window_cells - half;
-  const auto feature = [&](const std::string& name, int ur, int ll, int lr) {
-    return haar::HaarFeature{name,
-                             {{0, 0, half, half, 1},
-                              {far, 0, half, half, ur},
-                              {0, far, half, half, ll},
-                              {far, far, half, half, lr}}};
-  };
-  return {"quadrants",
-          {feature("left_right", -1, 1, -1), feature("up_down", 1, -1, -1),
-           feature("diagonal", -1, -1, 1)}};
-}
-
-/// Features of a row of windows, and what their norms make of them.
+/// Sums over the quadrants of a row of windows, and where their textures go.
 struct TextureRow {
-  const int* features[kTextureSize];
-  float* textures[kTextureSize];
+  const int* upper_left;
+  const int* upper_right;
+  const int* lower_left;
+  const int* lower_right;
+  float* left_right;
+  float* up_down;
+  float* diagonal;
 };
 
 CHAIN_TRACKER_MULTIVERSION
-void normalize(const TextureRow& row, float quadrant_cells, int columns) {
-  const int* __restrict left_right = row.features[0];
-  const int* __restrict up_down = row.features[1];
-  const int* __restrict diagonal = row.features[2];
-  float* __restrict left_right_out = row.textures[0];
-  float* __restrict up_down_out = row.textures[1];
-  float* __restrict diagonal_out = row.textures[2];
+void computeRow(const TextureRow& row, float quadrant_cells, int columns) {
+  const int* __restrict ul = row.upper_left;
+  const int* __restrict ur = row.upper_right;
+  const int* __restrict ll = row.lower_left;
+  const int* __restrict lr = row.lower_right;
+  float* __restrict left_right = row.left_right;
+  float* __restrict up_down = row.up_down;
+  float* __restrict diagonal = row.diagonal;
   const float scale = 0.5F / quadrant_cells;
   const float flat = kFlatContrast * kFlatContrast;
   for (int x = 0; x < columns; ++x) {
-    const float a = scale * static_cast<float>(left_right[x]);
-    const float b = scale * static_cast<float>(up_down[x]);
-    const float c = scale * static_cast<float>(diagonal[x]);
+    const int falling = ul[x] - lr[x];
+    const int rising = ur[x] - ll[x];
+    const float a = scale * static_cast<float>(falling - rising);
+    const float b = scale * static_cast<float>(falling + rising);
+    const float c = scale * static_cast<float>(ul[x] + lr[x] - ur[x] - ll[x]);
     const float norm = 1.0F / std::sqrt(a * a + b * b + c * c + flat);
-    left_right_out[x] = a * norm;
-    up_down_out[x] = b * norm;
-    diagonal_out[x] = c * norm;
+    left_right[x] = a * norm;
+    up_down[x] = b * norm;
+    diagonal[x] = c * norm;
   }
 }
 
 }  // namespace
-
-WindowTexturesWorkspace::WindowTexturesWorkspace() : features(quadrantFeatures) {}
 
 WindowTexture textureOf(float upper_left, float upper_right, float lower_left, float lower_right) {
   const float a = 0.5F * (upper_left + lower_left - upper_right - lower_right);
@@ -82,17 +70,17 @@ void computeWindowTextures(FramePixels& pixels, const WindowLattice& lattice,
   reuse(workspace.cells, region.size() / lattice.step);
   cv::resize(pixels.grey(region), workspace.cells, workspace.cells.size(), 0.0, 0.0,
              cv::INTER_AREA);
-  const std::vector<cv::Mat1i>& features = workspace.features.compute(
-      workspace.cells, lattice.window_cells, std::numeric_limits<uchar>::max());
-  const auto quadrant_cells =
-      static_cast<float>((lattice.window_cells / 2) * (lattice.window_cells / 2));
+  // The middle row and column of an odd window are in no quadrant.
+  const int half = lattice.window_cells / 2;
+  const int far = lattice.window_cells - half;
+  const cv::Mat1i& sums =
+      workspace.quadrants.compute(workspace.cells, half, std::numeric_limits<uchar>::max());
   for (int row = 0; row < lattice.size.height; ++row) {
-    TextureRow windows{};
-    for (size_t i = 0; i < kTextureSize; ++i) {
-      windows.features[i] = features[i][row];
-      windows.textures[i] = textures[i][row];
-    }
-    normalize(windows, quadrant_cells, lattice.size.width);
+    const int* upper = sums[row];
+    const int* lower = sums[row + far];
+    computeRow({upper, upper + far, lower, lower + far, textures[0][row], textures[1][row],
+                textures[2][row]},
+               static_cast<float>(half * half), lattice.size.width);
   }
 }
 

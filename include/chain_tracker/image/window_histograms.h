@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "chain_tracker/image/frame_pixels.h"
-#include "chain_tracker/image/window_responses.h"
+#include "chain_tracker/image/window_sums.h"
 
 namespace chain_tracker {
 
@@ -34,11 +34,9 @@ struct WindowLattice {
 
 /// Memory that may be kept from call to call so that none is allocated.
 struct WindowHistogramsWorkspace {
-  WindowHistogramsWorkspace();
-
   cv::Mat1b small_cells;  ///< the counts of all wanted entries side by side
   CellPlane cells;        ///< the same for cells of more than 255 pixels
-  WindowResponses sums;
+  WindowSums sums;
 };
 
 /// counts[entry](row, column): pixels of the window that have that palette entry, for the entries

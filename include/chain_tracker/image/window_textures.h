@@ -30,16 +30,15 @@ using WindowTexture = std::array<float, kTextureSize>;
 WindowTexture textureOf(float upper_left, float upper_right, float lower_left, float lower_right);
 
 struct WindowTexturesWorkspace {
-  WindowTexturesWorkspace();
-
   cv::Mat1b cells;  ///< means of grey levels
-  WindowResponses features;
+  WindowSums quadrants;
 };
 
 /// textures[i](row, column) = element i of the window's texture. A quadrant has half of the
 /// window's cells in each direction; an odd window's middle row and column count for neither.
-/// Outside the image its border pixels go on. The features are those of the Haar front end on the
-/// cells, whose means are rounded to whole grey levels.
+/// Outside the image its border pixels go on. The quadrants' sums are those of the Haar front end
+/// on the cells, whose means are rounded to whole grey levels; the features, which share them, are
+/// never stored.
 /// O(pixels + windows). Windows of one cell have no quadrants: their texture is null.
 void computeWindowTextures(FramePixels& pixels, const WindowLattice& lattice,
                            std::array<cv::Mat1f, kTextureSize>& textures,
