@@ -116,6 +116,7 @@ SegmentCandidates middleOf(const SegmentCandidates& candidates) {
 
 std::vector<SegmentCandidates> middlesOf(const std::vector<SegmentCandidates>& segments) {
   std::vector<SegmentCandidates> middles;
+  middles.reserve(segments.size());
   for (const SegmentCandidates& segment : segments) middles.push_back(middleOf(segment));
   return middles;
 }
