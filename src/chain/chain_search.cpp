@@ -121,6 +121,13 @@ std::vector<SegmentCandidates> middlesOf(const std::vector<SegmentCandidates>& s
   return middles;
 }
 
+bool isInTheMiddle(const std::vector<PoseGrid>& grids, const ChainMatch& match) {
+  for (size_t m = 0; m < grids.size(); ++m) {
+    if (!grids[m].isMiddle(match.segments[m].pose)) return false;
+  }
+  return true;
+}
+
 double clampedTurn(double from, double to, double limit) {
   return wrapAngle(from + std::clamp(wrapAngle(to - from), -limit, limit));
 }
@@ -161,14 +168,12 @@ ChainState ChainSearch::find(const ChainState& sought, const SearchRange& range)
   found.times.matching = watch.lap();
   if (!match.found()) return found;
   const Candidates fine = fineCandidates(coarse, match);
-  const ChainMatch refined = matched(fine.poses, middlesOf(fine.segments), pose_workspace_);
-  if (refined.found()) {
-    const std::vector<SegmentPose> poses = interpolatedPoses(fine.poses, refined);
+  if (const auto refined = refinePoses(fine.poses, middlesOf(fine.segments))) {
     const std::vector<RefinedPart> parts =
-        refineChain(layout_, poses, fine.segments, fine_workspace_);
+        refineChain(layout_, refined->poses, fine.segments, fine_workspace_);
     found.times.refinement = watch.lap();
-    fillIn(parts, poses, found);
-    found.energy = refined.energy;
+    fillIn(parts, refined->poses, found);
+    found.energy = refined->energy;
     found.times.pose = watch.lap();
   }
   return found;
@@ -332,6 +337,21 @@ ChainMatch ChainSearch::matched(const std::vector<PoseGrid>& poses,
                                 const std::vector<SegmentCandidates>& candidates,
                                 ChainSolverWorkspace& workspace) const {
   return matchChain({layout_, model_, previous_, poses, candidates}, workspace);
+}
+
+/// Between the poses tried. These are a turn or a change of scale: where one of them pays, the
+/// other may still, and is tried around there.
+std::optional<ChainSearch::RefinedPoses> ChainSearch::refinePoses(
+    const std::vector<PoseGrid>& grids, const std::vector<SegmentCandidates>& candidates) {
+  const ChainMatch match = matched(grids, candidates, pose_workspace_);
+  if (!match.found()) return std::nullopt;
+  RefinedPoses refined{interpolatedPoses(grids, match), match.energy};
+  if (isInTheMiddle(grids, match)) return refined;
+  std::vector<PoseGrid> around = grids;
+  for (size_t m = 0; m < segments(); ++m) around[m].middle = refined.poses[m];
+  const ChainMatch again = matched(around, candidates, pose_workspace_);
+  if (again.energy < refined.energy) refined = {interpolatedPoses(around, again), again.energy};
+  return refined;
 }
 
 void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,

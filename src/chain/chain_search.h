@@ -3,6 +3,7 @@
 /// every part, all poses matched at once, then the same around the winner at full resolution.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -53,6 +54,11 @@ class ChainSearch {
     std::vector<SegmentCandidates> segments;
     std::vector<PoseGrid> poses;
   };
+  /// Of the segments, and the energy of the best chain in nearly these.
+  struct RefinedPoses {
+    std::vector<SegmentPose> poses;
+    double energy = 0.0;
+  };
   /// Of the nodes of each segment.
   using NodePositions = std::vector<std::vector<cv::Point2d>>;
 
@@ -74,6 +80,8 @@ class ChainSearch {
   ChainMatch matched(const std::vector<PoseGrid>& poses,
                      const std::vector<SegmentCandidates>& candidates,
                      ChainSolverWorkspace& workspace) const;
+  std::optional<RefinedPoses> refinePoses(const std::vector<PoseGrid>& grids,
+                                          const std::vector<SegmentCandidates>& candidates);
   void fillIn(const std::vector<RefinedPart>& parts, const std::vector<SegmentPose>& poses,
               ChainState& found) const;
   void fitSegment(size_t m, const SegmentPose& searched, ChainState& state) const;
