@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
 namespace chain_tracker {
@@ -77,6 +78,25 @@ class VideoSource : public FrameSource {
   int next_ = 0;
 };
 
+class GreyFrames : public FrameSource {
+ public:
+  explicit GreyFrames(std::unique_ptr<FrameSource> frames) : frames_(std::move(frames)) {}
+
+  bool next(SourceFrame& frame) override {
+    if (!frames_->next(frame)) return false;
+    if (frame.image.channels() != 3) return true;
+    cv::Mat grey;
+    cv::cvtColor(frame.image, grey, cv::COLOR_BGR2GRAY);
+    frame.image = grey;
+    return true;
+  }
+
+  int count() const override { return frames_->count(); }
+
+ private:
+  std::unique_ptr<FrameSource> frames_;
+};
+
 }  // namespace
 
 std::unique_ptr<FrameSource> openFrames(const std::string& path) {
@@ -92,6 +112,10 @@ std::unique_ptr<FrameSource> openFrames(const std::string& path) {
   throw std::invalid_argument(path + " has no pictures in img/ and " +
                               std::to_string(videos.size()) +
                               " video files (*.mp4, *.avi), must have one of the two");
+}
+
+std::unique_ptr<FrameSource> greyFrames(std::unique_ptr<FrameSource> frames) {
+  return std::make_unique<GreyFrames>(std::move(frames));
 }
 
 }  // namespace chain_tracker

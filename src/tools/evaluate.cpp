@@ -83,6 +83,7 @@ void addOptions(CLI::App& app, Options& options) {
       ->needs(suite);
   app.add_option("--min-iou", options.min_iou,
                  "Exit with 1 if the mean IoU (of a suite: over its sequences) is below");
+  app.add_flag("--grey", job.grey, "Turn the images grey first, as of a mono8 camera");
   app.add_flag("--video", job.video, "Write overlay.mp4");
   app.add_flag("!--no-report", job.report, "Do not draw report.html");
   app.add_option("--out", job.out, "Folder to write")->required();

@@ -84,6 +84,26 @@ TEST_F(FrameSources, AnUnreadablePictureIsAFrameWithAFault) {
   EXPECT_TRUE(frames[2].fault.empty());
 }
 
+TEST_F(FrameSources, GreyFramesAreTheSameInOneChannel) {
+  cv::imwrite((folder_ / "img/0.png").string(), cv::Mat(48, 64, CV_8UC3, cv::Scalar(0, 0, 255)));
+  std::ofstream(folder_ / "img" / "1.png") << "no picture";
+  cv::imwrite((folder_ / "img/2.png").string(), cv::Mat(48, 64, CV_8UC1, cv::Scalar(90)));
+  const auto source = greyFrames(openFrames(folder_.string()));
+  EXPECT_EQ(source->count(), 3);
+  SourceFrame frame;
+  ASSERT_TRUE(source->next(frame));
+  EXPECT_EQ(frame.image.type(), CV_8UC1);
+  EXPECT_NEAR(levelOf(frame), 0.299 * 255, 1);
+  ASSERT_TRUE(source->next(frame));
+  EXPECT_TRUE(frame.image.empty());
+  EXPECT_FALSE(frame.fault.empty());
+  ASSERT_TRUE(source->next(frame));
+  EXPECT_EQ(frame.index, 2);
+  EXPECT_EQ(frame.image.type(), CV_8UC1);
+  EXPECT_NEAR(levelOf(frame), 90, 1);
+  EXPECT_FALSE(source->next(frame));
+}
+
 TEST_F(FrameSources, AVideoHasItsOwnRate) {
   fs::remove_all(folder_ / "img");
   const std::string video = writeVideo("clip.avi");

@@ -33,4 +33,7 @@ class FrameSource {
 /// Throws std::invalid_argument naming the path if there are no frames.
 std::unique_ptr<FrameSource> openFrames(const std::string& path);
 
+/// The same frames as a mono8 camera would deliver them: CV_8UC1.
+std::unique_ptr<FrameSource> greyFrames(std::unique_ptr<FrameSource> frames);
+
 }  // namespace chain_tracker

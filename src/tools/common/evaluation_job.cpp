@@ -43,7 +43,8 @@ void readTruthFile(const std::string& path, GroundTruth& truth) {
 }
 
 std::unique_ptr<FrameSource> openSource(const EvaluationJob& job) {
-  return job.bag.empty() ? openFrames(job.sequence) : openBagFrames(job.bag, job.topic);
+  auto frames = job.bag.empty() ? openFrames(job.sequence) : openBagFrames(job.bag, job.topic);
+  return job.grey ? greyFrames(std::move(frames)) : std::move(frames);
 }
 
 /// Topics begin with a slash; so may files, which are there.

@@ -67,6 +67,7 @@ std::vector<std::string> commandOf(const std::string& program, const std::string
   if (job.max_frames > 0) {
     command.insert(command.end(), {"--max-frames", std::to_string(job.max_frames)});
   }
+  if (job.grey) command.emplace_back("--grey");
   if (job.video) command.emplace_back("--video");
   if (!job.report) command.emplace_back("--no-report");
   return command;
