@@ -65,6 +65,9 @@ CarriedShape::CarriedShape(const SegmentLayout& segment)
     : deformable_(segment.layout == Layout::kDeformable),
       initial_orientation_(segment.image_from_segment.angle),
       corners_(segment.corners) {
+  if (segment.layout == Layout::kPoints) corners_ = hullOf(segment.points);
+  box_turns_ = deformable_ || segment.layout == Layout::kPoints ||
+               !isUpright(corners_, initial_orientation_);
   for (const cv::Point2d& point : segment.points) {
     if (!deformable_) {
       anchors_.push_back({point, nearestPart(segment.parts, point)});
@@ -110,9 +113,7 @@ std::vector<cv::Point2d> CarriedShape::outline(const SegmentState& segment,
 
 cv::Rect2d CarriedShape::box(const SegmentState& segment,
                              const std::vector<PartState>& parts) const {
-  if (deformable_ || !isUpright(corners_, initial_orientation_)) {
-    return uprightBounds(outline(segment, parts));
-  }
+  if (box_turns_) return uprightBounds(outline(segment, parts));
   SegmentState unturned = segment;
   unturned.image_from_segment.angle = initial_orientation_;
   return uprightBounds(outline(unturned, parts));

@@ -192,21 +192,23 @@ SegmentLayout layOutAlong(const std::vector<cv::Point2d>& centers, double window
   return segment;
 }
 
-void requirePolyline(const SegmentModel& model, const std::vector<cv::Point2d>& points) {
+/// `what`: the points have to be.
+void requireLine(const SegmentModel& model, const std::vector<cv::Point2d>& points,
+                 const std::string& what) {
   if (points.size() < 2) {
     refuse("segment " + model.name + " was given " + std::to_string(points.size()) +
-           " points, must be a polyline of at least 2");
+           " points, must be " + what);
   }
   for (size_t i = 1; i < points.size(); ++i) requireApart(points, i - 1, i);
 }
 
 SegmentLayout layOutPolyline(const SegmentModel& model, const std::vector<cv::Point2d>& points) {
-  requirePolyline(model, points);
+  requireLine(model, points, "a polyline of at least 2");
   return layOutAlong(resample(points, model.parts), model.window, points);
 }
 
 SegmentLayout layOutPoints(const SegmentModel& model, const std::vector<cv::Point2d>& points) {
-  requirePolyline(model, points);
+  requireLine(model, points, "the middles of at least 2 parts");
   return layOutAlong(points, model.window, points);
 }
 

@@ -22,8 +22,8 @@ std::vector<size_t> listWanted(const std::vector<bool>& wanted) {
   return entries;
 }
 
-/// Counts(row, i * columns + column) = number of pixels in the cell with the i-th wanted entry.
-/// What is not wanted is counted behind that.
+/// At (row, i * columns + column): the pixels in the cell that have the i-th wanted entry. What is
+/// not wanted is counted behind that.
 template <typename Cell>
 cv::Mat_<Cell> countCells(const cv::Mat1b& entries, int step, const std::vector<size_t>& wanted,
                           int columns, cv::Mat_<Cell>& plane) {

@@ -24,7 +24,8 @@ std::vector<Shape> shapes() {
           {"straight line", Layout::kDeformable, {{10, 50}, {120, 50}}},
           {"vertical line", Layout::kDeformable, {{40, 10}, {40, 120}}},
           {"closed line", Layout::kDeformable, {{10, 10}, {90, 10}, {90, 90}, {10, 10}}},
-          {"doubled line", Layout::kDeformable, {{10, 10}, {90, 10}, {10, 10}}}};
+          {"doubled line", Layout::kDeformable, {{10, 10}, {90, 10}, {10, 10}}},
+          {"points", Layout::kPoints, {{10, 20}, {80, 20}, {50, 40}, {80, 70}, {10, 70}}}};
 }
 
 SegmentLayout layOutShape(const Shape& shape) {
@@ -136,17 +137,19 @@ TEST(CarriedShape, uprightBoxMovesAndGrowsButDoesNotTurn) {
   }
 }
 
-TEST(CarriedShape, turnedBoxIsBoundedAnewAsItTurns) {
-  const Shape diamond = shapes()[3];
-  const SegmentLayout layout = layOutShape(diamond);
-  const CarriedShape carried(layout);
-  for (double angle : {0.0, 0.4, CV_PI / 4.0, -3.0}) {
-    const Object object = moved(layout, {angle, 1.5, {7, 9}});
-    std::vector<cv::Point2d> corners;
-    for (const cv::Point2d& corner : diamond.points) {
-      corners.push_back(Similarity{angle, 1.5, {7, 9}}.apply(corner));
+TEST(CarriedShape, turnedBoxAndPointsAreBoundedAnewAsTheyTurn) {
+  for (const Shape& shape : {shapes()[3], shapes().back()}) {
+    SCOPED_TRACE(shape.name);
+    const SegmentLayout layout = layOutShape(shape);
+    const CarriedShape carried(layout);
+    for (double angle : {0.0, 0.4, CV_PI / 4.0, -3.0}) {
+      const Object object = moved(layout, {angle, 1.5, {7, 9}});
+      std::vector<cv::Point2d> corners;
+      for (const cv::Point2d& corner : shape.points) {
+        corners.push_back(Similarity{angle, 1.5, {7, 9}}.apply(corner));
+      }
+      expectNear(uprightBounds(corners), carried.box(object.segment, object.parts));
     }
-    expectNear(uprightBounds(corners), carried.box(object.segment, object.parts));
   }
 }
 

@@ -25,13 +25,13 @@ class CarriedShape {
   std::vector<CarriedPoint> points(const SegmentState& segment,
                                    const std::vector<PartState>& parts) const;
 
-  /// Corners of the initial box, turned and scaled with the segment. What bends anywhere soon
-  /// leaves that box: it has the convex hull of its points and parts instead.
+  /// Corners of the initial box, turned and scaled with the segment. Points have their convex hull
+  /// instead; what bends anywhere soon leaves its box, and has the hull of its points and parts.
   std::vector<cv::Point2d> outline(const SegmentState& segment,
                                    const std::vector<PartState>& parts) const;
 
   /// Upright box of the object: an upright initial box moves and rescales but does not turn, a
-  /// turned one and a deformable object give the bounds of their outline.
+  /// turned one, points and a deformable object give the bounds of their outline.
   cv::Rect2d box(const SegmentState& segment, const std::vector<PartState>& parts) const;
 
  private:
@@ -41,6 +41,7 @@ class CarriedShape {
   };
 
   bool deformable_ = false;
+  bool box_turns_ = false;
   double initial_orientation_ = 0.0;
   std::vector<Anchor> anchors_;
   std::vector<cv::Point2d> corners_;
