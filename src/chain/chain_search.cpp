@@ -31,6 +31,8 @@ constexpr int kLeastReach = 4;
 constexpr double kCellVariance = 0.25;
 /// States along a side on which poses are refined: a vector's length.
 constexpr int kPoseStates = 8;
+/// Of the poses to the parts, and of the parts to the poses.
+constexpr int kFits = 2;
 /// Keeps the fit defined when no part is seen.
 constexpr double kSmallestWeight = 1e-3;
 
@@ -65,10 +67,10 @@ SegmentCandidates candidatesOf(const SegmentLayout& segment, const CandidateGrid
 }
 
 /// Half the coarse steps around the best coarse pose. Where the coarse search has a
-/// single hypothesis, the fit alone turns or rescales the segment, by up to the coarse step.
+/// single hypothesis, the fits alone turn or rescale the segment, by up to the coarse step.
 PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
   const auto fine_step = [](int hypotheses, double step) {
-    return hypotheses > 1 ? 0.5 * step : 2.0 * step;
+    return hypotheses > 1 ? 0.5 * step : step;
   };
   return {coarse, std::min(3, model.orientation_hypotheses),
           fine_step(model.orientation_hypotheses, model.orientation_step),
@@ -121,13 +123,6 @@ std::vector<SegmentCandidates> middlesOf(const std::vector<SegmentCandidates>& s
   return middles;
 }
 
-bool isInTheMiddle(const std::vector<PoseGrid>& grids, const ChainMatch& match) {
-  for (size_t m = 0; m < grids.size(); ++m) {
-    if (!grids[m].isMiddle(match.segments[m].pose)) return false;
-  }
-  return true;
-}
-
 double clampedTurn(double from, double to, double limit) {
   return wrapAngle(from + std::clamp(wrapAngle(to - from), -limit, limit));
 }
@@ -168,14 +163,12 @@ ChainState ChainSearch::find(const ChainState& sought, const SearchRange& range)
   found.times.matching = watch.lap();
   if (!match.found()) return found;
   const Candidates fine = fineCandidates(coarse, match);
-  if (const auto refined = refinePoses(fine.poses, middlesOf(fine.segments))) {
-    const std::vector<RefinedPart> parts =
-        refineChain(layout_, refined->poses, fine.segments, fine_workspace_);
-    found.times.refinement = watch.lap();
-    fillIn(parts, refined->poses, found);
-    found.energy = refined->energy;
-    found.times.pose = watch.lap();
+  const ChainMatch finest = matched(fine.poses, middlesOf(fine.segments), pose_workspace_);
+  if (finest.found()) {
+    settle(interpolatedPoses(fine.poses, finest), fine.segments, found);
+    found.energy = finest.energy;
   }
+  found.times.refinement = watch.lap();
   return found;
 }
 
@@ -278,19 +271,20 @@ ChainSearch::Candidates ChainSearch::candidatesAround(const NodePositions& cente
     if (m > 0) {
       candidates.segments[m].origins.front() = candidates.segments[m - 1].origins.back();
     }
-    computeCosts(m, candidates);
+    computeCosts(m, wrapAngle(poses[m].orientation - previous_[m].orientation), candidates);
   }
   return candidates;
 }
 
-void ChainSearch::computeCosts(size_t m, Candidates& candidates) {
+/// `turn`: of the segment from where it is sought [rad].
+void ChainSearch::computeCosts(size_t m, double turn, Candidates& candidates) {
   const SegmentLayout& segment = layout_[m];
   const CandidateGrid& grid = candidates.grids[m];
   const auto first_part = static_cast<size_t>(sought_.segments[m].first_part);
   std::vector<RootHistogram> colors;
   std::vector<WindowTexture> textures;
   for (size_t k = first_part; k < first_part + segment.parts.size(); ++k) {
-    const PartAppearance& part = appearance_.part(k, turnOf(k));
+    const PartAppearance& part = appearance_.part(k, wrapAngle(turnOf(k) + turn));
     colors.push_back(part.colors);
     textures.push_back(part.texture);
   }
@@ -339,19 +333,14 @@ ChainMatch ChainSearch::matched(const std::vector<PoseGrid>& poses,
   return matchChain({layout_, model_, previous_, poses, candidates}, workspace);
 }
 
-/// Between the poses tried. These are a turn or a change of scale: where one of them pays, the
-/// other may still, and is tried around there.
-std::optional<ChainSearch::RefinedPoses> ChainSearch::refinePoses(
-    const std::vector<PoseGrid>& grids, const std::vector<SegmentCandidates>& candidates) {
-  const ChainMatch match = matched(grids, candidates, pose_workspace_);
-  if (!match.found()) return std::nullopt;
-  RefinedPoses refined{interpolatedPoses(grids, match), match.energy};
-  if (isInTheMiddle(grids, match)) return refined;
-  std::vector<PoseGrid> around = grids;
-  for (size_t m = 0; m < segments(); ++m) around[m].middle = refined.poses[m];
-  const ChainMatch again = matched(around, candidates, pose_workspace_);
-  if (again.energy < refined.energy) refined = {interpolatedPoses(around, again), again.energy};
-  return refined;
+/// The parts tell the poses more exactly than the energies of a few poses do, but their springs
+/// hold them near the poses these were laid for: so they are laid once more.
+void ChainSearch::settle(std::vector<SegmentPose> poses,
+                         const std::vector<SegmentCandidates>& candidates, ChainState& found) {
+  for (int i = 0; i < kFits; ++i) {
+    fillIn(refineChain(layout_, poses, candidates, fine_workspace_), poses, found);
+    poses = posesOf(found);
+  }
 }
 
 void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,
@@ -368,8 +357,9 @@ void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,
   for (size_t m = 0; m < segments(); ++m) fitSegment(m, poses[m], found);
 }
 
-/// Least squares over the parts, within the resolution of the poses searched: beyond it, the
-/// energy knows better than the parts, which lean inwards wherever the object is uniform.
+/// Least squares over the parts, within the resolution of the poses searched, half a step in each
+/// fit: beyond it, the energy knows better than the parts, which lean inwards wherever the object
+/// is uniform.
 void ChainSearch::fitSegment(size_t m, const SegmentPose& searched, ChainState& state) const {
   SegmentState& segment = state.segments[m];
   std::vector<cv::Point2d> reference;

@@ -3,7 +3,6 @@
 /// every part, all poses matched at once, then the same around the winner at full resolution.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -54,11 +53,6 @@ class ChainSearch {
     std::vector<SegmentCandidates> segments;
     std::vector<PoseGrid> poses;
   };
-  /// Of the segments, and the energy of the best chain in nearly these.
-  struct RefinedPoses {
-    std::vector<SegmentPose> poses;
-    double energy = 0.0;
-  };
   /// Of the nodes of each segment.
   using NodePositions = std::vector<std::vector<cv::Point2d>>;
 
@@ -73,15 +67,15 @@ class ChainSearch {
   Candidates fineCandidates(const Candidates& coarse, const ChainMatch& match);
   Candidates candidatesAround(const NodePositions& centers, const std::vector<SegmentPose>& poses,
                               int step, double radius);
-  void computeCosts(size_t m, Candidates& candidates);
+  void computeCosts(size_t m, double turn, Candidates& candidates);
   void robustify(Candidates& candidates) const;
   void robustify(size_t part, const cv::Point2d& origin, int step, cv::Mat1f& costs) const;
   double turnOf(size_t part) const;
   ChainMatch matched(const std::vector<PoseGrid>& poses,
                      const std::vector<SegmentCandidates>& candidates,
                      ChainSolverWorkspace& workspace) const;
-  std::optional<RefinedPoses> refinePoses(const std::vector<PoseGrid>& grids,
-                                          const std::vector<SegmentCandidates>& candidates);
+  void settle(std::vector<SegmentPose> poses, const std::vector<SegmentCandidates>& candidates,
+              ChainState& found);
   void fillIn(const std::vector<RefinedPart>& parts, const std::vector<SegmentPose>& poses,
               ChainState& found) const;
   void fitSegment(size_t m, const SegmentPose& searched, ChainState& state) const;

@@ -8,7 +8,7 @@ namespace chain_tracker {
 namespace {
 
 /// Between the turns for which windows are learned [rad].
-constexpr double kTurnStep = 0.1;
+constexpr double kTurnStep = 0.05;
 /// Samples along a pixel's side: a turned window's pixels are none of the image's.
 constexpr int kSamplesPerPixel = 2;
 /// Samples along a window's side, at most: more do not change the shares of colours.

@@ -165,12 +165,12 @@ TEST(ObjectAppearance, textureTurnsWithTheObject) {
   EXPECT_NEAR(0.0F, quarter[0], 0.2F);
 }
 
-TEST(ObjectAppearance, roundsTurnsToTenthsOfARadian) {
+TEST(ObjectAppearance, roundsTurnsToTwentiethsOfARadian) {
   const ChainModel model = boxModel();
   ObjectAppearance appearance(redAndGreenBox(), boxLayout(model), model.appearance);
-  EXPECT_EQ(&appearance.part(2, 0.76), &appearance.part(2, 0.84));
-  EXPECT_NE(&appearance.part(2, 0.76), &appearance.part(2, 0.74));
-  EXPECT_EQ(&appearance.part(2, 0.04), &appearance.part(2, -0.04));
+  EXPECT_EQ(&appearance.part(2, 0.78), &appearance.part(2, 0.82));
+  EXPECT_NE(&appearance.part(2, 0.78), &appearance.part(2, 0.77));
+  EXPECT_EQ(&appearance.part(2, 0.02), &appearance.part(2, -0.02));
 }
 
 }  // namespace

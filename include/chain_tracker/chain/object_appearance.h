@@ -31,8 +31,8 @@ class ObjectAppearance {
 
   /// What part `index`, counted over all segments, looks like when the object has turned by `turn`
   /// [rad] there: windows stay upright, so they see its corners change. It is the look of the
-  /// window turned back in the first frame, to the nearest tenth of a radian; learned when first
-  /// asked for, O(pixels of the window).
+  /// window turned back in the first frame, to the nearest twentieth of a radian; learned when
+  /// first asked for, O(pixels of the window).
   const PartAppearance& part(size_t index, double turn);
 
  private:

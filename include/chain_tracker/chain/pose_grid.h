@@ -27,7 +27,6 @@ struct PoseGrid {
   double scale_step = 0.0;        ///< of the log scale
 
   size_t size() const { return static_cast<size_t>(orientations + scales - 1); }
-  bool isMiddle(size_t index) const { return index == static_cast<size_t>(orientations / 2); }
   /// Where in the grid a pose lies: column (scale) and row (orientation). All orientations come
   /// first, then the other scales.
   cv::Point cellOf(size_t index) const;
