@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -15,7 +16,7 @@ namespace chain_tracker::haar {
 namespace {
 
 /// Vectors are full: up to so many elements more are computed than needed.
-constexpr int kVector = 16;
+constexpr int kVector = 32;
 constexpr size_t kAlignment = 64;
 /// Columns of a strip, unless the caller wants another number.
 constexpr int kStripColumns = 2048;
@@ -60,6 +61,42 @@ class RowRing {
   std::uint8_t* first_;
 };
 
+/// The step after which nobody reads a buffer any more, for every buffer.
+std::vector<size_t> lastReads(const ConvolutionPlan& plan) {
+  std::vector<size_t> last(plan.buffers().size(), 0);
+  for (size_t i = 0; i < plan.steps().size(); ++i) {
+    last[static_cast<size_t>(plan.steps()[i].source)] = i;
+  }
+  return last;
+}
+
+/// Buffers of which no earlier rows are read can follow one another in one ring, so that what the
+/// steps hand on stays in the nearest cache. The integral image needs its own row above.
+bool isPassing(const PlanBuffer& buffer) { return buffer.node != 0 && buffer.delays == 0; }
+
+/// For every buffer, the first one that uses the same ring: itself, unless rings are shared.
+std::vector<size_t> ringOwners(const ConvolutionPlan& plan, bool may_share) {
+  const std::vector<PlanBuffer>& buffers = plan.buffers();
+  std::vector<size_t> owners(buffers.size());
+  std::iota(owners.begin(), owners.end(), size_t{0});
+  if (!may_share) return owners;
+  const std::vector<size_t> last_reads = lastReads(plan);
+  std::vector<size_t> busy_until = last_reads;  // of the rings
+  for (size_t step = 0; step < plan.steps().size(); ++step) {
+    if (plan.steps()[step].target < 0) continue;
+    const auto target = static_cast<size_t>(plan.steps()[step].target);
+    const auto canTake = [&](size_t ring) {
+      return owners[ring] == ring && isPassing(buffers[ring]) && isPassing(buffers[target]) &&
+             buffers[ring].lane == buffers[target].lane && busy_until[ring] < step;
+    };
+    for (size_t ring = 0; ring < target && owners[target] == target; ++ring) {
+      if (canTake(ring)) owners[target] = ring;
+    }
+    busy_until[owners[target]] = last_reads[target];
+  }
+  return owners;
+}
+
 /// Where responses go.
 struct Destination {
   const ResponsePlane* planes = nullptr;  ///< of the features, or null
@@ -94,10 +131,15 @@ class BandRunner {
       for (const PlanInput& input : step.inputs) margin = std::max(margin, input.dx);
     }
     margin = roundedUp(margin, static_cast<int>(kAlignment));
-    for (const PlanBuffer& buffer : plan.buffers()) {
+    // What one strip hands on, the next one reads.
+    const std::vector<size_t> owners = ringOwners(plan, options.rings && strips() == 1);
+    for (size_t i = 0; i < owners.size(); ++i) {
+      const PlanBuffer& buffer = plan.buffers()[i];
+      ring_of_.push_back(owners[i] == i ? rings_.size() : ring_of_[owners[i]]);
+      if (owners[i] != i) continue;
       const int rows = options.rings ? buffer.delays : band_rows + bottom_ - top_;
       rings_.emplace_back(buffer.lane, roundedUp(rows, kBatchRows) + kBatchRows, columns_, margin);
-      if (buffer.node == 0) integrals_.push_back(rings_.size() - 1);
+      if (buffer.node == 0) integrals_.push_back(i);
     }
     pixels_.resize(static_cast<size_t>(columns_) * kBatchRows);
     zeros_.resize(static_cast<size_t>(columns_) * sizeof(std::uint32_t));
@@ -109,8 +151,7 @@ class BandRunner {
   void setSize(const cv::Size& size) {
     size_ = size;
     columns_ = roundedUp(size.width + right_ - left_, kVector);
-    const int strips = std::max(1, columns_ / roundedUp(wanted_columns_, kVector));
-    strip_columns_ = roundedUp((columns_ + strips - 1) / strips, 2 * kVector);
+    strip_columns_ = roundedUp((columns_ + strips() - 1) / strips(), kVector);
   }
 
   size_t bytes() const {
@@ -145,15 +186,16 @@ class BandRunner {
     cv::Range rows;
   };
 
+  int strips() const { return std::max(1, columns_ / roundedUp(wanted_columns_, kVector)); }
   const PlanBuffer& buffer(int index) const { return plan_.buffers()[static_cast<size_t>(index)]; }
-  const RowRing& ring(int index) const { return rings_[static_cast<size_t>(index)]; }
+  const RowRing& ring(int index) const { return rings_[ring_of_[static_cast<size_t>(index)]]; }
 
   /// The next piece of a row of the integral image of the band: whatever lies above and left of it
   /// does not change responses.
   void integrate(const std::uint8_t* pixels, int row, const cv::Range& columns,
                  bool is_first) noexcept {
     for (size_t i = 0; i < integrals_.size(); ++i) {
-      const RowRing& integral = rings_[integrals_[i]];
+      const RowRing& integral = rings_[ring_of_[integrals_[i]]];
       const void* above = is_first ? zeros_.data() : integral.at(row - 1, columns.start);
       void* target = integral.at(row, columns.start);
       std::uint32_t& before = before_[i * kBatchRows + static_cast<size_t>(row & (kBatchRows - 1))];
@@ -255,6 +297,7 @@ class BandRunner {
   int wanted_columns_;  ///< of a strip
   int strip_columns_ = 0;
   std::vector<RowRing> rings_;
+  std::vector<size_t> ring_of_;       ///< of the buffers
   std::vector<size_t> integrals_;     ///< buffers of the integral image
   std::vector<RowSum> sums_;          ///< of the steps
   std::vector<std::uint8_t> pixels_;  ///< of the rows of a batch

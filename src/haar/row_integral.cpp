@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "machine_instructions.h"
+
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
@@ -110,10 +112,6 @@ __attribute__((target("avx2"))) int integrateWideVectors(const std::uint8_t* pix
   before = static_cast<U16>(_mm256_extract_epi16(carry, 0));
   return x;
 }
-
-bool isWide(InstructionSet instructions) {
-  return instructions == InstructionSet::kBest && __builtin_cpu_supports("avx2") != 0;
-}
 #endif
 
 template <typename Sum>
@@ -132,7 +130,7 @@ U16 integrateRow(const std::uint8_t* pixels, const U16* above, U16 before, U16* 
                  InstructionSet instructions) {
   int start = 0;
 #ifdef CHAIN_TRACKER_HAS_AVX2
-  if (isWide(instructions)) {
+  if (canUseAvx2(instructions)) {
     start = integrateWideVectors(pixels, above, before, integral, count);
   }
 #else

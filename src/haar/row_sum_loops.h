@@ -11,6 +11,7 @@
 #include "tap_shape.h"
 
 #ifdef __AVX2__
+#define CHAIN_TRACKER_VECTORS
 #include <immintrin.h>
 #endif
 
@@ -57,8 +58,13 @@ CHAIN_TRACKER_INLINE Element product(Element value, Element weight) {
   return static_cast<Element>(value * std::uint32_t{weight});
 }
 
-#ifdef __AVX2__
-constexpr int kLanes = 16;
+#ifdef CHAIN_TRACKER_VECTORS
+#ifdef __AVX512BW__
+using Register = __m512i;
+#else
+using Register = __m256i;
+#endif
+constexpr int kLanes = sizeof(Register) / sizeof(std::uint16_t);
 constexpr int kHalfLanes = kLanes / 2;
 
 template <typename T, int kSize>
@@ -68,7 +74,7 @@ struct VectorOf {
 using NarrowVector = VectorOf<std::uint16_t, kLanes>::Type;
 using HalfVector = VectorOf<std::uint32_t, kHalfLanes>::Type;
 
-/// 16 values of 32 bits.
+/// As many values of 32 bits as a vector holds of 16.
 struct WideVector {
   HalfVector halves[2];
 
@@ -97,10 +103,46 @@ CHAIN_TRACKER_INLINE Vector loadAs(const Element* from) {
   return values;
 }
 
-/// The values of 16-bit vectors in the order in which the machine widens them: the middle quarters
-/// change places. Signed or unsigned as `Element` is.
+#ifdef __AVX512BW__
+/// The values of 16-bit vectors, signed or unsigned as `Element` is, in the order in which
+/// storeWide() takes them.
 template <typename Element>
-CHAIN_TRACKER_INLINE WideVector shuffledWide(__m256i values) {
+CHAIN_TRACKER_INLINE WideVector wide(Register values) {
+  const __m256i low = _mm512_castsi512_si256(values);
+  const __m256i high = _mm512_extracti64x4_epi64(values, 1);
+  if constexpr (std::is_signed_v<Element>) {
+    return {{reinterpret_cast<HalfVector>(_mm512_cvtepi16_epi32(low)),
+             reinterpret_cast<HalfVector>(_mm512_cvtepi16_epi32(high))}};
+  } else {
+    return {{reinterpret_cast<HalfVector>(_mm512_cvtepu16_epi32(low)),
+             reinterpret_cast<HalfVector>(_mm512_cvtepu16_epi32(high))}};
+  }
+}
+
+template <Write kWrite>
+CHAIN_TRACKER_INLINE void store(Register values, void* to) {
+  if constexpr (kWrite == Write::kAroundCaches) {
+    auto* const quarters = static_cast<__m128i*>(to);
+    _mm_stream_si128(quarters, _mm512_castsi512_si128(values));
+    _mm_stream_si128(quarters + 1, _mm512_extracti32x4_epi32(values, 1));
+    _mm_stream_si128(quarters + 2, _mm512_extracti32x4_epi32(values, 2));
+    _mm_stream_si128(quarters + 3, _mm512_extracti32x4_epi32(values, 3));
+  } else {
+    std::memcpy(to, &values, sizeof(values));
+  }
+}
+
+template <Write kWrite>
+CHAIN_TRACKER_INLINE void storeWide(const WideVector& sums, void* to) {
+  store<kWrite>(reinterpret_cast<Register>(sums.halves[0]), to);
+  store<kWrite>(reinterpret_cast<Register>(sums.halves[1]), static_cast<Register*>(to) + 1);
+}
+#else
+/// The values of 16-bit vectors, signed or unsigned as `Element` is, in the order in which
+/// storeWide() takes them: that in which the machine widens them, the middle quarters having
+/// changed places.
+template <typename Element>
+CHAIN_TRACKER_INLINE WideVector wide(Register values) {
   const __m256i high_bits =
       std::is_signed_v<Element> ? _mm256_srai_epi16(values, 15) : _mm256_setzero_si256();
   return {{reinterpret_cast<HalfVector>(_mm256_unpacklo_epi16(values, high_bits)),
@@ -108,7 +150,7 @@ CHAIN_TRACKER_INLINE WideVector shuffledWide(__m256i values) {
 }
 
 template <Write kWrite>
-CHAIN_TRACKER_INLINE void store(__m256i values, void* to) {
+CHAIN_TRACKER_INLINE void store(Register values, void* to) {
   if constexpr (kWrite == Write::kAroundCaches) {
     auto* const halves = static_cast<__m128i*>(to);
     _mm_stream_si128(halves, _mm256_castsi256_si128(values));
@@ -119,12 +161,13 @@ CHAIN_TRACKER_INLINE void store(__m256i values, void* to) {
 }
 
 template <Write kWrite>
-CHAIN_TRACKER_INLINE void storeShuffled(const WideVector& sums, void* to) {
-  const auto first = reinterpret_cast<__m256i>(sums.halves[0]);
-  const auto second = reinterpret_cast<__m256i>(sums.halves[1]);
+CHAIN_TRACKER_INLINE void storeWide(const WideVector& sums, void* to) {
+  const auto first = reinterpret_cast<Register>(sums.halves[0]);
+  const auto second = reinterpret_cast<Register>(sums.halves[1]);
   store<kWrite>(_mm256_permute2x128_si256(first, second, 0x20), to);
-  store<kWrite>(_mm256_permute2x128_si256(first, second, 0x31), static_cast<__m256i*>(to) + 1);
+  store<kWrite>(_mm256_permute2x128_si256(first, second, 0x31), static_cast<Register*>(to) + 1);
 }
+#endif
 
 /// How the vectors of each kind are read, and how their sums are written.
 template <typename K, size_t kSourceBytes = sizeof(typename K::Source),
@@ -149,7 +192,7 @@ template <typename K>
 struct VectorAccess<K, 2, 2, 4> : VectorAccess<K, 2, 2, 2> {
   template <Write kWrite>
   static CHAIN_TRACKER_INLINE void write(const NarrowVector& sums, void* to) {
-    storeShuffled<kWrite>(shuffledWide<typename K::Taken>(reinterpret_cast<__m256i>(sums)), to);
+    storeWide<kWrite>(wide<typename K::Taken>(reinterpret_cast<Register>(sums)), to);
   }
 };
 
@@ -158,11 +201,11 @@ struct VectorAccess<K, 2, 4, 4> {
   using Vector = WideVector;
   static constexpr int kElements = kLanes;
   static CHAIN_TRACKER_INLINE Vector load(const typename K::Source* from) {
-    return shuffledWide<typename K::Source>(loadAs<__m256i>(from));
+    return wide<typename K::Source>(loadAs<Register>(from));
   }
   template <Write kWrite>
   static CHAIN_TRACKER_INLINE void write(const Vector& sums, void* to) {
-    storeShuffled<kWrite>(sums, to);
+    storeWide<kWrite>(sums, to);
   }
 };
 
@@ -175,7 +218,7 @@ struct VectorAccess<K, 4, 4, 4> {
   }
   template <Write kWrite>
   static CHAIN_TRACKER_INLINE void write(const Vector& sums, void* to) {
-    store<kWrite>(reinterpret_cast<__m256i>(sums), to);
+    store<kWrite>(reinterpret_cast<Register>(sums), to);
   }
 };
 #endif
@@ -228,7 +271,7 @@ CHAIN_TRACKER_INLINE void sumShape(const RowTap* taps, const RowStore& source,
   const int columns = block.columns;
   for (int y = 0; y < block.rows; ++y) {
     int x = 0;
-#ifdef __AVX2__
+#ifdef CHAIN_TRACKER_VECTORS
     using Access = VectorAccess<K>;
     using Vector = typename Access::Vector;
     for (; x + Access::kElements <= columns; x += Access::kElements) {
@@ -367,3 +410,4 @@ RowSum::Function chooseLoop(RowKind kind, const TapShape& shape, Write write) {
 
 #undef CHAIN_TRACKER_INLINE
 #undef CHAIN_TRACKER_INDEPENDENT
+#undef CHAIN_TRACKER_VECTORS

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "row_sums.h"
 
+#include "machine_instructions.h"
 #include "tap_shape.h"
 
 namespace chain_tracker::haar {
 namespace {
 
-bool isWide(InstructionSet instructions) {
-#if defined(__x86_64__) && defined(__GNUC__)
-  return instructions == InstructionSet::kBest && __builtin_cpu_supports("avx2") != 0;
-#else
-  static_cast<void>(instructions);
-  return false;
-#endif
+auto loopsFor(RowKind kind, InstructionSet instructions) {
+  // Rows of 32 bits are mostly read from and written to memory beyond the caches, where vectors of
+  // 512 bits, which hardly ever fit a line, cost up to half as much again as those of 256.
+  if (kind != RowKind::k32To32 && canUseAvx512(instructions)) return avx512Loop;
+  return canUseAvx2(instructions) ? avx2Loop : portableLoop;
 }
 
 }  // namespace
@@ -20,7 +19,7 @@ bool isWide(InstructionSet instructions) {
 RowSum::RowSum(RowKind kind, const std::vector<RowTap>& taps, InstructionSet instructions)
     : taps_(taps) {
   const TapShape shape = groupTaps(taps_);
-  const auto loop = isWide(instructions) ? wideLoop : portableLoop;
+  const auto loop = loopsFor(kind, instructions);
   sum_ = loop(kind, shape, Write::kThroughCaches);
   streaming_sum_ = loop(kind, shape, Write::kAroundCaches);
 }

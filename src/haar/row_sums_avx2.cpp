@@ -4,7 +4,7 @@
 
 namespace chain_tracker::haar {
 
-RowSum::Function wideLoop(RowKind kind, const TapShape& shape, Write write) {
+RowSum::Function avx2Loop(RowKind kind, const TapShape& shape, Write write) {
   return chooseLoop(kind, shape, write);
 }
 

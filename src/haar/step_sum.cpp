@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "step_sum.h"
 
+#include "cache_size.h"
+
 namespace chain_tracker::haar {
-namespace {
-
-/// More than the nearest caches hold [bytes].
-constexpr size_t kStreamedBytes = size_t{8} << 20;
-
-}  // namespace
 
 bool areStreamed(const cv::Size& size, size_t planes) {
-  return static_cast<size_t>(size.area()) * planes * sizeof(std::int32_t) > kStreamedBytes;
+  // The other half is for whoever else uses the cache.
+  return static_cast<size_t>(size.area()) * planes * sizeof(std::int32_t) > lastCacheBytes() / 2;
 }
 
 RowKind rowKindOf(const PlanStep& step, const PlanBuffer& source) {

@@ -28,8 +28,9 @@ TapShape groupTaps(std::vector<RowTap>& taps);
 enum class Write { kThroughCaches, kAroundCaches };
 
 /// The loop for taps of a shape: with the instructions that the package is compiled for, or with
-/// those of AVX2, which the machine must have.
+/// those of AVX2 or AVX-512BW, which the machine must have.
 RowSum::Function portableLoop(RowKind kind, const TapShape& shape, Write write);
-RowSum::Function wideLoop(RowKind kind, const TapShape& shape, Write write);
+RowSum::Function avx2Loop(RowKind kind, const TapShape& shape, Write write);
+RowSum::Function avx512Loop(RowKind kind, const TapShape& shape, Write write);
 
 }  // namespace chain_tracker::haar

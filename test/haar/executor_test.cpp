@@ -30,14 +30,18 @@ std::vector<cv::Mat1i> runBuffered(const ConvolutionPlan& plan, const cv::Mat1b&
 
 /// One option off, or another, at a time.
 std::vector<ExecutorOptions> executorOptions() {
-  std::vector<ExecutorOptions> all(7);
+  std::vector<ExecutorOptions> all(10);
   all[1].rings = false;
   all[2].threads = 3;
-  all[3].strip_columns = 16;
+  all[3].strip_columns = 32;
   all[4].streaming = Streaming::kAlways;
   all[5].threads = 2;
   all[5].strip_columns = 37;
   all[6].instructions = InstructionSet::kPortable;
+  all[7].instructions = InstructionSet::kAvx2;
+  all[8].instructions = InstructionSet::kAvx2;
+  all[8].streaming = Streaming::kAlways;
+  all[9].streaming = Streaming::kNever;
   return all;
 }
 

@@ -49,7 +49,7 @@ class ResponseConsumer {
 };
 
 enum class Streaming {
-  kAuto,   ///< where the responses are larger than the caches
+  kAuto,   ///< where the responses are larger than half of the last cache
   kNever,  ///< responses are written through the caches
   kAlways  ///< responses are written around the caches, where the machine and alignment allow
 };
@@ -57,7 +57,7 @@ enum class Streaming {
 struct ExecutorOptions {
   int threads = 1;        ///< >= 1; bands of rows
   bool rings = true;      ///< off: buffers keep all rows
-  int strip_columns = 0;  ///< columns worked on at a time, >= 16; 0: chosen from the plan
+  int strip_columns = 0;  ///< columns worked on at a time, >= 32; 0: chosen from the plan
   Streaming streaming = Streaming::kAuto;
   InstructionSet instructions = InstructionSet::kBest;
 };
