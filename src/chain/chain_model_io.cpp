@@ -124,6 +124,7 @@ void readSegment(const Reader& reader, SegmentModel& segment) {
                   {"layout", into(segment.layout)},
                   {"parts", into(segment.parts)},
                   {"aspect", into(segment.aspect)},
+                  {"measure_aspect", into(segment.measure_aspect)},
                   {"margin", into(segment.margin)},
                   {"window", into(segment.window)},
                   {"stretch_sigma", into(segment.stretch_sigma)},

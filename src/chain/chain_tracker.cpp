@@ -7,6 +7,7 @@
 
 #include "chain_search.h"
 #include "chain_tracker/chain/chain_layout.h"
+#include "chain_tracker/chain/link_width.h"
 #include "chain_tracker/chain/object_shape.h"
 #include "chain_tracker/chain/target_checks.h"
 #include "lost_search.h"
@@ -33,7 +34,7 @@ class ChainTracker::Implementation {
  public:
   Implementation(const ChainModel& model, const cv::Mat& image,
                  const std::vector<cv::Point2d>& points)
-      : model_(checked(model, image, points.size())),
+      : model_(checked(model, image, points)),
         layout_(checked(layOut(model_, points), image.size())),
         shape_(layout_.segments),
         image_size_(image.size()),
@@ -58,12 +59,14 @@ class ChainTracker::Implementation {
   const ChainModel& model() const { return model_; }
 
  private:
-  static ChainModel checked(const ChainModel& model, const cv::Mat& image, size_t points) {
+  static ChainModel checked(const ChainModel& model, const cv::Mat& image,
+                            const std::vector<cv::Point2d>& points) {
     requireModel(model);
     requireImage(image);
-    ChainModel expanded = forPolyline(model, points);
+    const ChainModel expanded = forPolyline(model, points.size());
     requireModel(expanded);
-    return expanded;
+    requireInside(layOut(expanded, points).silhouette, image.size());
+    return withMeasuredAspects(expanded, image, points);
   }
 
   static ChainLayout checked(ChainLayout layout, const cv::Size& image_size) {

@@ -40,6 +40,7 @@ segments:
     layout: deformable
     parts: 17
     aspect: 0.2
+    measure_aspect: true
     margin: 0.03
     window: 1.5
     stretch_sigma: 0.06
@@ -79,6 +80,7 @@ ChainModel everyKeyModel() {
   segment.layout = Layout::kDeformable;
   segment.parts = 17;
   segment.aspect = 0.2;
+  segment.measure_aspect = true;
   segment.margin = 0.03;
   segment.window = 1.5;
   segment.stretch_sigma = 0.06;
@@ -119,7 +121,7 @@ TEST(ParseChainModel, noKeyIsUntested) {
       ++keys;
     }
   }
-  EXPECT_EQ(35U, keys);
+  EXPECT_EQ(36U, keys);
 }
 
 TEST(ParseChainModel, keysLeftOutKeepTheirDefaults) {
@@ -268,6 +270,7 @@ TEST(ShippedModels, articulatedHasALinkForEveryEdge) {
   segment.name = "link";
   segment.parts = 8;
   segment.aspect = 0.28;
+  segment.measure_aspect = true;
   segment.margin = 0.0;
   segment.scale_hypotheses = 1;
   segment.scale_step = 0.01;

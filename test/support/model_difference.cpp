@@ -21,6 +21,7 @@ class Differences {
     compare(prefix + "layout", static_cast<int>(expected.layout), static_cast<int>(actual.layout));
     compare(prefix + "parts", expected.parts, actual.parts);
     compare(prefix + "aspect", expected.aspect, actual.aspect);
+    compare(prefix + "measure_aspect", expected.measure_aspect, actual.measure_aspect);
     compare(prefix + "window", expected.window, actual.window);
     compare(prefix + "stretch_sigma", expected.stretch_sigma, actual.stretch_sigma);
     compare(prefix + "bend_sigma", expected.bend_sigma, actual.bend_sigma);

@@ -28,6 +28,8 @@ struct SegmentModel {
   /// given.
   int parts = 24;
   double aspect = 0.4;  ///< width over length of an elongated object given by its two ends
+  /// The first image decides on the aspect of a link, if it shows it; see link_width.h.
+  bool measure_aspect = false;
   /// How far a grid of cells reaches beyond the outline, so that windows straddle it: fraction of
   /// the square root of the area. Means nothing to a deformable segment.
   double margin = 0.1;
