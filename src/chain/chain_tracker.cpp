@@ -65,8 +65,9 @@ class ChainTracker::Implementation {
     requireImage(image);
     const ChainModel expanded = forPolyline(model, points.size());
     requireModel(expanded);
-    requireInside(layOut(expanded, points).silhouette, image.size());
-    return withMeasuredAspects(expanded, image, points);
+    checked(layOut(expanded, points), image.size());
+    ChainModel measured = withMeasuredAspects(expanded, image, points);
+    return havePartsRoom(layOut(measured, points), image.size()) ? measured : expanded;
   }
 
   static ChainLayout checked(ChainLayout layout, const cv::Size& image_size) {

@@ -12,6 +12,15 @@ namespace {
 /// A smaller part has no histogram worth the name [px].
 constexpr double kSmallestSide = 4.0;
 
+double largestSide(const cv::Size& image_size) {
+  return std::min(image_size.width, image_size.height);
+}
+
+bool hasPartsRoom(const SegmentLayout& segment, const cv::Size& image_size) {
+  const double side = segment.parts.front().side;
+  return side >= kSmallestSide && side <= largestSide(image_size);
+}
+
 }  // namespace
 
 std::string textOf(const cv::Size& size) {
@@ -42,16 +51,21 @@ void requireSameKind(const cv::Mat& image, const cv::Size& first_size, int first
 }
 
 void requirePartsFit(const ChainLayout& layout, const cv::Size& image_size) {
-  const double largest = std::min(image_size.width, image_size.height);
   for (const SegmentLayout& segment : layout.segments) {
-    const double side = segment.parts.front().side;
-    if (side >= kSmallestSide && side <= largest) continue;
+    if (hasPartsRoom(segment, image_size)) continue;
     std::ostringstream message;
     message << "the " << segment.parts.size() << " parts of segment " << segment.name << " are "
-            << side << " px wide, must be from " << kSmallestSide << " to " << largest
-            << " px, the shorter side of the " << textOf(image_size) << " image";
+            << segment.parts.front().side << " px wide, must be from " << kSmallestSide << " to "
+            << largestSide(image_size) << " px, the shorter side of the " << textOf(image_size)
+            << " image";
     throw std::invalid_argument(message.str());
   }
+}
+
+bool havePartsRoom(const ChainLayout& layout, const cv::Size& image_size) {
+  return std::all_of(
+      layout.segments.begin(), layout.segments.end(),
+      [&](const SegmentLayout& segment) { return hasPartsRoom(segment, image_size); });
 }
 
 void requireInside(const Silhouette& silhouette, const cv::Size& image_size) {

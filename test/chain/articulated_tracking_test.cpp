@@ -145,5 +145,29 @@ TEST(ChainTracker, articulatedModelFollowsEveryLink) {
   }
 }
 
+TEST(ChainTracker, takesTheWidthOfLinksFromTheFirstImage) {
+  cv::Mat3b image(240, 320, cv::Vec3b(60, 120, 40));
+  image(cv::Rect(84, 50, 33, 160)).setTo(cv::Scalar(40, 60, 200));
+  ChainModel model;
+  model.segment_per_edge = true;
+  model.segments[0].parts = 8;
+  model.segments[0].measure_aspect = true;
+  const ChainTracker tracker(model, image, {{100, 50}, {100, 130}, {100, 210}});
+  EXPECT_NEAR(0.85 * 33.0 / 80.0, tracker.model().segments[1].aspect, 0.02);
+}
+
+TEST(ChainTracker, keepsTheAspectOfTheModelWhereMeasuredPartsWouldBeTooSmall) {
+  cv::Mat3b image(240, 320, cv::Vec3b(60, 120, 40));
+  image(cv::Rect(99, 100, 3, 40)).setTo(cv::Scalar(40, 60, 200));
+  ChainModel model;
+  model.segment_per_edge = true;
+  model.segments[0].parts = 8;
+  model.segments[0].aspect = 0.3;
+  model.segments[0].margin = 0.0;
+  model.segments[0].measure_aspect = true;
+  const ChainTracker tracker(model, image, {{100, 100}, {100, 120}, {100, 140}});
+  EXPECT_EQ(0.3, tracker.model().segments[0].aspect);
+}
+
 }  // namespace
 }  // namespace chain_tracker

@@ -24,7 +24,8 @@ void requireImage(const cv::Mat& image);
 /// Size and type are those of the first image.
 void requireSameKind(const cv::Mat& image, const cv::Size& first_size, int first_type);
 
-/// The parts are large enough to have a histogram and fit into the image.
+/// Whether the parts are large enough to have a histogram and fit into the image.
+bool havePartsRoom(const ChainLayout& layout, const cv::Size& image_size);
 void requirePartsFit(const ChainLayout& layout, const cv::Size& image_size);
 
 /// At least half of the target lies inside the image: objects often stick out a little.
