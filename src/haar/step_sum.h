@@ -10,7 +10,7 @@
 namespace chain_tracker::haar {
 
 /// Rows computed by one step before the next step follows.
-constexpr int kBatchRows = 8;
+constexpr int kBatchRows = 2;
 
 /// Whether so many planes of 32-bit responses are written around the caches.
 bool areStreamed(const cv::Size& size, size_t planes);
