@@ -102,7 +102,7 @@ struct Destination {
   const ResponsePlane* planes = nullptr;  ///< of the features, or null
   ResponseConsumer* consumer = nullptr;   ///< or null
   int plane = 0;
-  bool streaming = false;
+  int streamed_from = 0;  ///< the first feature that is written around the caches
 };
 
 /// Computes bands of rows; the memory of one thread.
@@ -287,7 +287,7 @@ class BandRunner {
     const bool aligned =
         reinterpret_cast<std::uintptr_t>(target) % kStreamAlignment == 0 &&
         response.stride * static_cast<std::ptrdiff_t>(sizeof(*target)) % kStreamAlignment == 0;
-    if (destination.streaming && aligned) {
+    if (loop.feature >= destination.streamed_from && aligned) {
       loop.sum.runStreaming(source, target, sums);
     } else {
       loop.sum.run(source, target, sums);
@@ -381,9 +381,13 @@ class BufferedExecutor::Implementation {
     return {boundary(member), boundary(member + 1)};
   }
 
-  bool isStreaming() const {
-    if (options_.streaming != Streaming::kAuto) return options_.streaming == Streaming::kAlways;
-    return areStreamed(size_, features_ * static_cast<size_t>(plane_count_));
+  /// The first feature of a plane whose responses are written around the caches.
+  int streamedFrom(int plane) const {
+    if (options_.streaming == Streaming::kAlways) return 0;
+    if (options_.streaming == Streaming::kNever) return static_cast<int>(features_);
+    const size_t before = static_cast<size_t>(plane) * features_;
+    const size_t cached = cachedPlanes(size_, features_ * static_cast<size_t>(plane_count_));
+    return static_cast<int>(std::min(features_, cached - std::min(cached, before)));
   }
 
   void work(int member) {
@@ -393,7 +397,7 @@ class BufferedExecutor::Implementation {
         destination.planes = responses_ + static_cast<size_t>(plane) * features_;
       destination.consumer = consumer_;
       destination.plane = plane;
-      destination.streaming = isStreaming();
+      destination.streamed_from = streamedFrom(plane);
       runners_[static_cast<size_t>(member)].run(planes_[plane], bandOf(member), destination);
     }
   }

@@ -117,7 +117,7 @@ class CostModel::Implementation {
     if (known != loops_.end()) return known->second;
     const double seconds = bytes == 0 ? bufferSeconds(loop)
                                       : planeSeconds(loop, std::max<size_t>(1, bytes / size / 4),
-                                                     areStreamed(size_, planes));
+                                                     planes > cachedPlanes(size_, planes));
     return loops_[key] = seconds;
   }
 
