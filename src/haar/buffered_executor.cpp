@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
 #include "plan_loops.h"
 #include "row_integral.h"
+#include "row_rings.h"
 #include "row_sums.h"
 #include "step_sum.h"
 #include "thread_team.h"
@@ -18,84 +18,12 @@ namespace {
 
 /// Vectors are full: up to so many elements more are computed than needed.
 constexpr int kVector = 32;
-constexpr size_t kAlignment = 64;
 /// Columns of a strip, unless the caller wants another number.
 constexpr int kStripColumns = 2048;
 
 int roundedUp(int value, int step) { return (value + step - 1) / step * step; }
 /// Towards minus infinity.
 int roundedDown(int value, int step) { return value - ((value % step) + step) % step; }
-
-int powerOfTwoFrom(int least) {
-  int power = 1;
-  while (power < least) power *= 2;
-  return power;
-}
-
-/// The last rows of a buffer. Column 0 of all rings is the same column of the image; `margin`
-/// columns before it can be read, but mean nothing.
-class RowRing {
- public:
-  RowRing(Lane lane, int rows, int columns, int margin)
-      : element_size_(lane == Lane::k16 ? 2 : 4), mask_(powerOfTwoFrom(rows) - 1) {
-    const auto row_bytes = static_cast<size_t>(margin + columns) * element_size_;
-    const size_t stride_bytes = (row_bytes + kAlignment - 1) / kAlignment * kAlignment;
-    stride_ = static_cast<std::ptrdiff_t>(stride_bytes / element_size_);
-    memory_.resize(stride_bytes * (static_cast<size_t>(mask_) + 1) + kAlignment +
-                   kTouchedColumns * element_size_);
-    const auto address = reinterpret_cast<std::uintptr_t>(memory_.data());
-    first_ = memory_.data() + (kAlignment - address % kAlignment) % kAlignment +
-             static_cast<size_t>(margin) * element_size_;
-  }
-
-  void* at(int row, int column) const {
-    return first_ + ((row & mask_) * stride_ + column) * static_cast<std::ptrdiff_t>(element_size_);
-  }
-  RowStore store() const { return {first_, mask_, stride_}; }
-  std::ptrdiff_t stride() const { return stride_; }
-  size_t bytes() const { return memory_.size(); }
-
- private:
-  size_t element_size_;
-  int mask_;
-  std::ptrdiff_t stride_;
-  std::vector<std::uint8_t> memory_;
-  std::uint8_t* first_;
-};
-
-/// The loop after which nobody reads a buffer any more, for every buffer.
-std::vector<size_t> lastReads(const ConvolutionPlan& plan, const std::vector<PlanLoop>& loops) {
-  std::vector<size_t> last(plan.buffers().size(), 0);
-  for (size_t i = 0; i < loops.size(); ++i) last[static_cast<size_t>(loops[i].source)] = i;
-  return last;
-}
-
-/// For every buffer, the first one that uses the same ring: itself, unless rings are shared. What
-/// is passed on can follow one another in one ring, so that it stays in the nearest cache.
-std::vector<size_t> ringOwners(const ConvolutionPlan& plan, const std::vector<PlanLoop>& loops,
-                               bool may_share) {
-  const std::vector<PlanBuffer>& buffers = plan.buffers();
-  std::vector<size_t> owners(buffers.size());
-  std::iota(owners.begin(), owners.end(), size_t{0});
-  if (!may_share) return owners;
-  const std::vector<size_t> last_reads = lastReads(plan, loops);
-  std::vector<size_t> busy_until = last_reads;  // of the rings
-  std::vector<bool> is_ring(buffers.size(), false);
-  for (size_t i = 0; i < loops.size(); ++i) {
-    if (loops[i].target < 0) continue;
-    const auto target = static_cast<size_t>(loops[i].target);
-    const auto canTake = [&](size_t ring) {
-      return is_ring[ring] && isPassing(buffers[ring]) && isPassing(buffers[target]) &&
-             buffers[ring].lane == buffers[target].lane && busy_until[ring] < i;
-    };
-    for (size_t ring = 0; ring < target && owners[target] == target; ++ring) {
-      if (canTake(ring)) owners[target] = ring;
-    }
-    is_ring[owners[target]] = true;
-    busy_until[owners[target]] = last_reads[target];
-  }
-  return owners;
-}
 
 /// Where responses go.
 struct Destination {
@@ -130,7 +58,7 @@ class BandRunner {
       for (const RowTap& tap : loop.taps.column) margin = std::max(margin, tap.dx);
       for (const RowTap& tap : loop.taps.row) margin = std::max(margin, tap.dx);
     }
-    margin = roundedUp(margin + kTouchedColumns, static_cast<int>(kAlignment));
+    margin = roundedUp(margin + kTouchedColumns, static_cast<int>(kRowAlignment));
     // What one strip hands on, the next one reads.
     const std::vector<size_t> owners = ringOwners(plan, loops_, options.rings && strips() == 1);
     for (size_t i = 0; i < owners.size(); ++i) {
