@@ -49,7 +49,7 @@ class ResponseConsumer {
 };
 
 enum class Streaming {
-  kAuto,   ///< the planes of responses that do not fit in half of the last cache are kAlways
+  kAuto,   ///< responses are written through the caches as far as these can keep them
   kNever,  ///< responses are written through the caches
   kAlways  ///< responses are written around the caches, where the machine and alignment allow
 };
