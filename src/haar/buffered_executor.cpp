@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
+#include "plan_loops.h"
 #include "row_integral.h"
+#include "row_rings.h"
 #include "row_sums.h"
 #include "step_sum.h"
 #include "thread_team.h"
@@ -17,7 +18,6 @@ namespace {
 
 /// Vectors are full: up to so many elements more are computed than needed.
 constexpr int kVector = 32;
-constexpr size_t kAlignment = 64;
 /// Columns of a strip, unless the caller wants another number.
 constexpr int kStripColumns = 2048;
 
@@ -25,84 +25,12 @@ int roundedUp(int value, int step) { return (value + step - 1) / step * step; }
 /// Towards minus infinity.
 int roundedDown(int value, int step) { return value - ((value % step) + step) % step; }
 
-int powerOfTwoFrom(int least) {
-  int power = 1;
-  while (power < least) power *= 2;
-  return power;
-}
-
-/// The last rows of a buffer. Column 0 of all rings is the same column of the image; `margin`
-/// columns before it can be read, but mean nothing.
-class RowRing {
- public:
-  RowRing(Lane lane, int rows, int columns, int margin)
-      : element_size_(lane == Lane::k16 ? 2 : 4), mask_(powerOfTwoFrom(rows) - 1) {
-    const auto row_bytes = static_cast<size_t>(margin + columns) * element_size_;
-    const size_t stride_bytes = (row_bytes + kAlignment - 1) / kAlignment * kAlignment;
-    stride_ = static_cast<std::ptrdiff_t>(stride_bytes / element_size_);
-    memory_.resize(stride_bytes * (static_cast<size_t>(mask_) + 1) + kAlignment);
-    const auto address = reinterpret_cast<std::uintptr_t>(memory_.data());
-    first_ = memory_.data() + (kAlignment - address % kAlignment) % kAlignment +
-             static_cast<size_t>(margin) * element_size_;
-  }
-
-  void* at(int row, int column) const {
-    return first_ + ((row & mask_) * stride_ + column) * static_cast<std::ptrdiff_t>(element_size_);
-  }
-  RowStore store() const { return {first_, mask_, stride_}; }
-  std::ptrdiff_t stride() const { return stride_; }
-  size_t bytes() const { return memory_.size(); }
-
- private:
-  size_t element_size_;
-  int mask_;
-  std::ptrdiff_t stride_;
-  std::vector<std::uint8_t> memory_;
-  std::uint8_t* first_;
-};
-
-/// The step after which nobody reads a buffer any more, for every buffer.
-std::vector<size_t> lastReads(const ConvolutionPlan& plan) {
-  std::vector<size_t> last(plan.buffers().size(), 0);
-  for (size_t i = 0; i < plan.steps().size(); ++i) {
-    last[static_cast<size_t>(plan.steps()[i].source)] = i;
-  }
-  return last;
-}
-
-/// Buffers of which no earlier rows are read can follow one another in one ring, so that what the
-/// steps hand on stays in the nearest cache. The integral image needs its own row above.
-bool isPassing(const PlanBuffer& buffer) { return buffer.node != 0 && buffer.delays == 0; }
-
-/// For every buffer, the first one that uses the same ring: itself, unless rings are shared.
-std::vector<size_t> ringOwners(const ConvolutionPlan& plan, bool may_share) {
-  const std::vector<PlanBuffer>& buffers = plan.buffers();
-  std::vector<size_t> owners(buffers.size());
-  std::iota(owners.begin(), owners.end(), size_t{0});
-  if (!may_share) return owners;
-  const std::vector<size_t> last_reads = lastReads(plan);
-  std::vector<size_t> busy_until = last_reads;  // of the rings
-  for (size_t step = 0; step < plan.steps().size(); ++step) {
-    if (plan.steps()[step].target < 0) continue;
-    const auto target = static_cast<size_t>(plan.steps()[step].target);
-    const auto canTake = [&](size_t ring) {
-      return owners[ring] == ring && isPassing(buffers[ring]) && isPassing(buffers[target]) &&
-             buffers[ring].lane == buffers[target].lane && busy_until[ring] < step;
-    };
-    for (size_t ring = 0; ring < target && owners[target] == target; ++ring) {
-      if (canTake(ring)) owners[target] = ring;
-    }
-    busy_until[owners[target]] = last_reads[target];
-  }
-  return owners;
-}
-
 /// Where responses go.
 struct Destination {
   const ResponsePlane* planes = nullptr;  ///< of the features, or null
   ResponseConsumer* consumer = nullptr;   ///< or null
   int plane = 0;
-  bool streaming = false;
+  int streamed_from = 0;  ///< the first feature that is written around the caches
 };
 
 /// Computes bands of rows; the memory of one thread.
@@ -116,6 +44,7 @@ class BandRunner {
              const ExecutorOptions& options)
       : plan_(plan),
         instructions_(options.instructions),
+        loops_(loopsOf(plan, options.instructions)),
         wanted_columns_(options.strip_columns != 0 ? options.strip_columns : kStripColumns) {
     int margin = 0;
     for (const PlanBuffer& buffer : plan.buffers()) {
@@ -125,18 +54,17 @@ class BandRunner {
       bottom_ = std::max(bottom_, buffer.reach.bottom);
     }
     setSize(capacity);
-    for (const PlanStep& step : plan.steps()) {
-      const PlanBuffer& source = plan.buffers()[static_cast<size_t>(step.source)];
-      sums_.emplace_back(rowKindOf(step, source), tapsOf(step), options.instructions);
-      for (const PlanInput& input : step.inputs) margin = std::max(margin, input.dx);
+    for (const PlanLoop& loop : loops_) {
+      for (const RowTap& tap : loop.taps.column) margin = std::max(margin, tap.dx);
+      for (const RowTap& tap : loop.taps.row) margin = std::max(margin, tap.dx);
     }
-    margin = roundedUp(margin, static_cast<int>(kAlignment));
+    margin = roundedUp(margin + kTouchedColumns, static_cast<int>(kRowAlignment));
     // What one strip hands on, the next one reads.
-    const std::vector<size_t> owners = ringOwners(plan, options.rings && strips() == 1);
+    const std::vector<size_t> owners = ringOwners(plan, loops_, options.rings && strips() == 1);
     for (size_t i = 0; i < owners.size(); ++i) {
       const PlanBuffer& buffer = plan.buffers()[i];
       ring_of_.push_back(owners[i] == i ? rings_.size() : ring_of_[owners[i]]);
-      if (owners[i] != i) continue;
+      if (owners[i] != i || !isUsed(i)) continue;
       const int rows = options.rings ? buffer.delays : band_rows + bottom_ - top_;
       rings_.emplace_back(buffer.lane, roundedUp(rows, kBatchRows) + kBatchRows, columns_, margin);
       if (buffer.node == 0) integrals_.push_back(i);
@@ -172,8 +100,8 @@ class BandRunner {
         for (int row = rows.start; row < rows.end; ++row) {
           integrate(pixelsOf(plane, row, columns.start), row, columns, row == first);
         }
-        for (size_t i = 0; i < plan_.steps().size(); ++i) {
-          runStep(i, band, {columns, rows}, destination);
+        for (const PlanLoop& loop : loops_) {
+          runLoop(loop, band, {columns, rows}, destination);
         }
       }
     }
@@ -186,6 +114,11 @@ class BandRunner {
     cv::Range rows;
   };
 
+  bool isUsed(size_t buffer) const {
+    return std::any_of(loops_.begin(), loops_.end(), [buffer](const PlanLoop& loop) {
+      return static_cast<size_t>(loop.source) == buffer;
+    });
+  }
   int strips() const { return std::max(1, columns_ / roundedUp(wanted_columns_, kVector)); }
   const PlanBuffer& buffer(int index) const { return plan_.buffers()[static_cast<size_t>(index)]; }
   const RowRing& ring(int index) const { return rings_[ring_of_[static_cast<size_t>(index)]]; }
@@ -219,76 +152,80 @@ class BandRunner {
     }
     std::uint8_t* pixels =
         pixels_.data() + static_cast<ptrdiff_t>(row & (kBatchRows - 1)) * columns_;
-    if (column == 0) {
+    if (column == 0 && inside) {
+      std::uint8_t* const first = pixels - left_;
+      std::fill(pixels, first, std::uint8_t{0});
+      std::memcpy(first, source, static_cast<size_t>(size_.width));
+      std::fill(first + size_.width, pixels + columns_, std::uint8_t{0});
+    } else if (column == 0) {
       std::fill(pixels, pixels + columns_, std::uint8_t{0});
-      if (inside) std::memcpy(pixels - left_, source, static_cast<size_t>(size_.width));
     }
     return pixels + column;
   }
 
-  void runStep(size_t index, const cv::Range& band, const Block& block,
+  void runLoop(const PlanLoop& loop, const cv::Range& band, const Block& block,
                const Destination& destination) noexcept {
-    const PlanStep& step = plan_.steps()[index];
-    const int top = step.target >= 0 ? buffer(step.target).reach.top : step.advance.y;
-    const int bottom = step.target >= 0 ? buffer(step.target).reach.bottom : step.advance.y;
+    const int top = loop.target >= 0 ? buffer(loop.target).reach.top : loop.advance.y;
+    const int bottom = loop.target >= 0 ? buffer(loop.target).reach.bottom : loop.advance.y;
     const cv::Range rows(std::max(block.rows.start, band.start + top),
                          std::min(block.rows.end, band.end + bottom));
     if (rows.start >= rows.end) return;
-    if (step.target >= 0) {
-      writeBuffer(index, {block.columns, rows});
+    if (loop.target >= 0) {
+      writeBuffer(loop, {block.columns, rows});
     } else {
-      writeResponse(index, {block.columns, rows}, destination);
+      writeResponse(loop, {block.columns, rows}, destination);
     }
   }
 
-  void writeBuffer(size_t index, const Block& block) noexcept {
-    const PlanStep& step = plan_.steps()[index];
-    const RowRing& target = ring(step.target);
-    const Reach& reach = buffer(step.target).reach;
+  void writeBuffer(const PlanLoop& loop, const Block& block) noexcept {
+    const RowRing& target = ring(loop.target);
+    const Reach& reach = buffer(loop.target).reach;
     const int first = std::max(block.columns.start, roundedDown(reach.left - left_, kVector));
     const int end =
         std::min(block.columns.end, roundedUp(size_.width + reach.right - left_, kVector));
     if (first >= end) return;
-    sums_[index].run(ring(step.source).store(), target.at(block.rows.start, first),
-                     {block.rows.start, first, block.rows.size(), end - first, target.stride()});
+    loop.sum.run(ring(loop.source).store(), target.at(block.rows.start, first),
+                 {block.rows.start, first, block.rows.size(), end - first, target.stride()});
   }
 
   /// Responses are written up to a multiple of kVector columns, the last strip's up to the end.
-  void writeResponse(size_t index, const Block& block, const Destination& destination) noexcept {
-    const PlanStep& step = plan_.steps()[index];
-    const int shift = step.advance.x - left_;
+  void writeResponse(const PlanLoop& loop, const Block& block,
+                     const Destination& destination) noexcept {
+    const int shift = loop.advance.x - left_;
     const int first = std::max(0, roundedDown(block.columns.start - shift, kVector));
     const int end = block.columns.end == columns_
                         ? size_.width
                         : std::min(size_.width, roundedDown(block.columns.end - shift, kVector));
     if (first >= end) return;
-    const int image_row = block.rows.start - step.advance.y;
+    const int image_row = block.rows.start - loop.advance.y;
     RowBlock sums{block.rows.start, first + shift, block.rows.size(), end - first, end - first};
-    const RowStore source = ring(step.source).store();
+    const RowStore source = ring(loop.source).store();
     if (destination.consumer != nullptr) {
-      sums_[index].run(source, response_.data(), sums);
+      loop.sum.run(source, response_.data(), sums);
       for (int i = 0; i < sums.rows; ++i) {
         destination.consumer->consume(
-            {destination.plane, step.feature, image_row + i, first, sums.columns,
+            {destination.plane, loop.feature, image_row + i, first, sums.columns,
              response_.data() + static_cast<std::ptrdiff_t>(i) * sums.columns});
       }
       return;
     }
-    const ResponsePlane& response = destination.planes[step.feature];
+    const ResponsePlane& response = destination.planes[loop.feature];
     sums.target_stride = response.stride;
     std::int32_t* target = response.data + image_row * response.stride + first;
     const bool aligned =
-        reinterpret_cast<std::uintptr_t>(target) % 16 == 0 && response.stride % 4 == 0;
-    if (destination.streaming && aligned) {
-      sums_[index].runStreaming(source, target, sums);
+        reinterpret_cast<std::uintptr_t>(target) % kStreamAlignment == 0 &&
+        response.stride * static_cast<std::ptrdiff_t>(sizeof(*target)) % kStreamAlignment == 0;
+    if (loop.feature >= destination.streamed_from && aligned) {
+      loop.sum.runStreaming(source, target, sums);
     } else {
-      sums_[index].run(source, target, sums);
+      loop.sum.run(source, target, sums);
     }
   }
 
   const ConvolutionPlan& plan_;
   cv::Size size_;
   InstructionSet instructions_;
+  std::vector<PlanLoop> loops_;
   int left_ = 0;
   int right_ = 0;
   int top_ = 0;
@@ -299,7 +236,6 @@ class BandRunner {
   std::vector<RowRing> rings_;
   std::vector<size_t> ring_of_;       ///< of the buffers
   std::vector<size_t> integrals_;     ///< buffers of the integral image
-  std::vector<RowSum> sums_;          ///< of the steps
   std::vector<std::uint8_t> pixels_;  ///< of the rows of a batch
   std::vector<std::uint8_t> zeros_;
   std::vector<std::uint32_t> before_;  ///< of each integral image and row: sum left of the strip
@@ -373,9 +309,13 @@ class BufferedExecutor::Implementation {
     return {boundary(member), boundary(member + 1)};
   }
 
-  bool isStreaming() const {
-    if (options_.streaming != Streaming::kAuto) return options_.streaming == Streaming::kAlways;
-    return areStreamed(size_, features_ * static_cast<size_t>(plane_count_));
+  /// The first feature of a plane whose responses are written around the caches.
+  int streamedFrom(int plane) const {
+    if (options_.streaming == Streaming::kAlways) return 0;
+    if (options_.streaming == Streaming::kNever) return static_cast<int>(features_);
+    const size_t before = static_cast<size_t>(plane) * features_;
+    const size_t cached = cachedPlanes(size_, features_ * static_cast<size_t>(plane_count_));
+    return static_cast<int>(std::min(features_, cached - std::min(cached, before)));
   }
 
   void work(int member) {
@@ -385,7 +325,7 @@ class BufferedExecutor::Implementation {
         destination.planes = responses_ + static_cast<size_t>(plane) * features_;
       destination.consumer = consumer_;
       destination.plane = plane;
-      destination.streaming = isStreaming();
+      destination.streamed_from = streamedFrom(plane);
       runners_[static_cast<size_t>(member)].run(planes_[plane], bandOf(member), destination);
     }
   }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "chain_tracker/haar/instruction_set.h"
@@ -33,6 +34,18 @@ struct RowTap {
   std::int32_t weight = 0;
 };
 
+/// Taps of a column (no dx) and of a row (no dy), whose product is meant.
+struct SeparableTaps {
+  std::vector<RowTap> column;
+  std::vector<RowTap> row;
+};
+
+/// Of rows that are written around the caches: a line of the caches, and the widest vector.
+constexpr int kStreamAlignment = 64;
+
+/// Columns beside those read that sums of separable taps touch, without using what is there.
+constexpr int kTouchedColumns = 64;
+
 /// Where a block of sums begins, how large it is, and how far apart its target's rows are.
 struct RowBlock {
   int row = 0;
@@ -49,12 +62,16 @@ class RowSum {
   RowSum(RowKind kind, const std::vector<RowTap>& taps,
          InstructionSet instructions = InstructionSet::kBest);
 
+  /// The sum over the product of the taps without a pass between, where there is a loop for it.
+  static std::optional<RowSum> ofSeparable(RowKind kind, const SeparableTaps& taps,
+                                           InstructionSet instructions = InstructionSet::kBest);
+
   /// The target must not overlap with what is read. O(taps * rows * columns).
   void run(const RowStore& source, void* target, const RowBlock& block) const {
     sum_(taps_.data(), taps_.size(), source, target, block);
   }
 
-  /// The same, writing around the caches, to 32-bit rows aligned to 16 bytes.
+  /// The same, writing around the caches, to 32-bit rows aligned to kStreamAlignment bytes.
   void runStreaming(const RowStore& source, std::int32_t* target, const RowBlock& block) const {
     streaming_sum_(taps_.data(), taps_.size(), source, target, block);
   }
@@ -63,9 +80,11 @@ class RowSum {
                             const RowBlock& block);
 
  private:
+  RowSum() = default;
+
   std::vector<RowTap> taps_;
-  Function sum_;
-  Function streaming_sum_;
+  Function sum_ = nullptr;
+  Function streaming_sum_ = nullptr;
 };
 
 }  // namespace chain_tracker::haar

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "step_sum.h"
 
+#include <algorithm>
+
 #include "cache_size.h"
 
 namespace chain_tracker::haar {
 
-bool areStreamed(const cv::Size& size, size_t planes) {
+size_t cachedPlanes(const cv::Size& size, size_t planes) {
+  const size_t plane_bytes = static_cast<size_t>(size.area()) * sizeof(std::int32_t);
+  if (planes * plane_bytes > lastCacheBytes()) return 0;
   // The other half is for whoever else uses the cache.
-  return static_cast<size_t>(size.area()) * planes * sizeof(std::int32_t) > lastCacheBytes() / 2;
+  return std::min(planes, lastCacheBytes() / 2 / plane_bytes);
 }
 
 RowKind rowKindOf(const PlanStep& step, const PlanBuffer& source) {

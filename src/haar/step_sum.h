@@ -10,10 +10,11 @@
 namespace chain_tracker::haar {
 
 /// Rows computed by one step before the next step follows.
-constexpr int kBatchRows = 8;
+constexpr int kBatchRows = 2;
 
-/// Whether so many planes of 32-bit responses are written around the caches.
-bool areStreamed(const cv::Size& size, size_t planes);
+/// How many of so many planes of 32-bit responses are written through the caches. The others are
+/// written around them: all, if the caches would keep none until they are written again.
+size_t cachedPlanes(const cv::Size& size, size_t planes);
 
 RowKind rowKindOf(const PlanStep& step, const PlanBuffer& source);
 std::vector<RowTap> tapsOf(const PlanStep& step);

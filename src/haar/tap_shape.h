@@ -33,4 +33,8 @@ RowSum::Function portableLoop(RowKind kind, const TapShape& shape, Write write);
 RowSum::Function avx2Loop(RowKind kind, const TapShape& shape, Write write);
 RowSum::Function avx512Loop(RowKind kind, const TapShape& shape, Write write);
 
+/// The loop for a column of taps times a row of taps, with AVX-512BW; null if there is none.
+RowSum::Function separableLoop(RowKind kind, const TapShape& column, const TapShape& row,
+                               Write write);
+
 }  // namespace chain_tracker::haar

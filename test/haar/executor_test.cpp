@@ -112,6 +112,22 @@ TEST(Executors, equalRectangleSumsForShippedEnsemblesOnHostileSizes) {
   }
 }
 
+TEST(Executors, equalRectangleSumsWhereverVectorsEnd) {
+  RandomInputs random(12);
+  for (const std::string name : {"surf", "viola_jones"}) {
+    const FeatureEnsemble ensemble = shippedEnsemble(name);
+    const ConvolutionPlan plan(ensemble);
+    for (int width = 30; width < 100; width += width % 32 == 2 ? 28 : 1) {
+      SCOPED_TRACE(name + ", " + textOf({width, 5}));
+      const cv::Mat1b image = random.noise({width, 5}, CV_8UC1);
+      const std::vector<cv::Mat1i> expected = sumRectangles(image, ensemble);
+      for (const ExecutorOptions& executor : executorOptions()) {
+        EXPECT_EQ("", firstDifference(expected, runBuffered(plan, image, executor)));
+      }
+    }
+  }
+}
+
 TEST(Executors, equalCornerReadsForEveryShippedEnsembleOnHostileSizes) {
   RandomInputs random(9);
   for (const std::string& name : shippedEnsembleNames()) {

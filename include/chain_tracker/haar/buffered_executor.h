@@ -49,7 +49,7 @@ class ResponseConsumer {
 };
 
 enum class Streaming {
-  kAuto,   ///< where the responses are larger than half of the last cache
+  kAuto,   ///< responses are written through the caches as far as these can keep them
   kNever,  ///< responses are written through the caches
   kAlways  ///< responses are written around the caches, where the machine and alignment allow
 };
