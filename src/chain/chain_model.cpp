@@ -85,6 +85,7 @@ void checkAppearance(const AppearanceModel& appearance, FaultList& faults) {
   faults.requireRange("appearance/ring", appearance.ring, 0.05, 3.0);
   faults.requireRange("appearance/min_object_share", appearance.min_object_share, 0.0, 0.95);
   faults.requireRange("appearance/weight", appearance.weight, 0.1, 1000.0);
+  faults.requireRange("appearance/edge_weight", appearance.edge_weight, 0.0, 1000.0);
   faults.requireRange("appearance/haar_weight", appearance.haar_weight, 0.0, 1000.0);
   faults.requireRange("appearance/outlier_below", appearance.outlier_below, 0.0, 1.0);
   faults.requireRange("appearance/outlier_slope", appearance.outlier_slope, 0.0, 1.0);

@@ -142,6 +142,7 @@ void readAppearance(const Reader& reader, AppearanceModel& appearance) {
                   {"ring", into(appearance.ring)},
                   {"min_object_share", into(appearance.min_object_share)},
                   {"weight", into(appearance.weight)},
+                  {"edge_weight", into(appearance.edge_weight)},
                   {"haar_weight", into(appearance.haar_weight)},
                   {"outlier_below", into(appearance.outlier_below)},
                   {"outlier_slope", into(appearance.outlier_slope)}});

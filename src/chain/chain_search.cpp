@@ -148,27 +148,29 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
   }
 }
 
-ChainState ChainSearch::find(const ChainState& sought, const SearchRange& range) {
+FoundChain ChainSearch::find(const ChainState& sought, const SearchRange& range) {
   Stopwatch watch;
   sought_ = sought;
   previous_ = posesOf(sought);
   range_ = range;
   relaxSprings(sought);
-  ChainState found = sought;
-  found.confidence = 0.0;
-  found.times = StepTimes();
+  FoundChain found{sought};
+  found.state.confidence = 0.0;
+  found.state.times = StepTimes();
+  StepTimes& times = found.state.times;
   const Candidates coarse = coarseCandidates();
-  found.times.part_costs = watch.lap();
+  times.part_costs = watch.lap();
   const ChainMatch match = matched(coarse.poses, coarse.segments, coarse_workspace_);
-  found.times.matching = watch.lap();
+  times.matching = watch.lap();
   if (!match.found()) return found;
+  edge_costs_ = edgeCosts(coarse, match);
   const Candidates fine = fineCandidates(coarse, match);
   const ChainMatch finest = matched(fine.poses, middlesOf(fine.segments), pose_workspace_);
   if (finest.found()) {
     settle(interpolatedPoses(fine.poses, finest), fine.segments, found);
-    found.energy = finest.energy;
+    found.state.energy = finest.energy;
   }
-  found.times.refinement = watch.lap();
+  times.refinement = watch.lap();
   return found;
 }
 
@@ -223,8 +225,8 @@ ChainSearch::Candidates ChainSearch::coarseCandidates() {
   for (size_t m = 0; m < segments(); ++m) centers.push_back(nodePositions(sought_, m));
   const int step = coarseStep(smallestSide(previous_), range_.radius);
   const double radius = std::min(range_.radius, kWidestReach * step);
-  Candidates coarse = candidatesAround(centers, previous_, step, radius);
-  robustify(coarse);
+  Candidates coarse = candidatesAround(centers, previous_, step, radius, Stage::kCoarse);
+  robustify(Stage::kCoarse, coarse);
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentModel& model = model_.segments[m];
     coarse.poses.push_back({previous_[m], model.orientation_hypotheses, model.orientation_step,
@@ -247,11 +249,11 @@ ChainSearch::Candidates ChainSearch::fineCandidates(const Candidates& coarse,
   const int coarse_step = coarse.segments.front().step;
   const int step = (coarse_step + kRefinedSteps - 1) / kRefinedSteps;
   const int reach = std::max(kLeastReach, coarse_step + step);
-  Candidates fine = candidatesAround(centers, poses, step, reach);
+  Candidates fine = candidatesAround(centers, poses, step, reach, Stage::kFine);
   for (SegmentCandidates& segment : fine.segments) {
     for (const cv::Mat1f& map : segment.costs) segment.appearance.push_back(map.clone());
   }
-  robustify(fine);
+  robustify(Stage::kFine, fine);
   for (size_t m = 0; m < segments(); ++m) {
     fine.poses.push_back(finePoses(model_.segments[m], poses[m]));
   }
@@ -260,7 +262,7 @@ ChainSearch::Candidates ChainSearch::fineCandidates(const Candidates& coarse,
 
 ChainSearch::Candidates ChainSearch::candidatesAround(const NodePositions& centers,
                                                       const std::vector<SegmentPose>& poses,
-                                                      int step, double radius) {
+                                                      int step, double radius, Stage stage) {
   Candidates candidates;
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentLayout& segment = layout_[m];
@@ -271,27 +273,31 @@ ChainSearch::Candidates ChainSearch::candidatesAround(const NodePositions& cente
     if (m > 0) {
       candidates.segments[m].origins.front() = candidates.segments[m - 1].origins.back();
     }
-    computeCosts(m, wrapAngle(poses[m].orientation - previous_[m].orientation), candidates);
+    computeCosts(m, wrapAngle(poses[m].orientation - previous_[m].orientation), stage, candidates);
   }
   return candidates;
 }
 
 /// `turn`: of the segment from where it is sought [rad].
-void ChainSearch::computeCosts(size_t m, double turn, Candidates& candidates) {
+void ChainSearch::computeCosts(size_t m, double turn, Stage stage, Candidates& candidates) {
   const SegmentLayout& segment = layout_[m];
   const CandidateGrid& grid = candidates.grids[m];
   const auto first_part = static_cast<size_t>(sought_.segments[m].first_part);
   std::vector<RootHistogram> colors;
+  std::vector<RootHistogram> edges;
   std::vector<WindowTexture> textures;
   for (size_t k = first_part; k < first_part + segment.parts.size(); ++k) {
     const PartAppearance& part = appearance_.part(k, wrapAngle(turnOf(k) + turn));
     colors.push_back(part.colors);
+    edges.push_back(part.edges);
     textures.push_back(part.texture);
   }
   std::vector<cv::Mat1f>& costs = candidates.segments[m].costs;
   const AppearanceModel& model = model_.appearance;
-  computePartCosts(pixels_, colors, grid, model.weight, costs, cost_workspace_);
-  if (model.haar_weight > 0.0) {
+  computePartCosts(pixels_, Channel::kColors, colors, grid, model.weight, costs, color_workspace_);
+  if (stage == Stage::kCoarse && model.edge_weight > 0.0) {
+    addEdgeCosts(m, edges, candidates);
+  } else if (stage == Stage::kFine && model.haar_weight > 0.0) {
     addTextureCosts(pixels_, textures, grid, model.haar_weight, costs, texture_workspace_);
   }
   const cv::Mat1f nothing(grid.states, 0.0F);
@@ -299,26 +305,48 @@ void ChainSearch::computeCosts(size_t m, double turn, Candidates& candidates) {
   if (segment.exit) costs.push_back(nothing);
 }
 
-void ChainSearch::robustify(Candidates& candidates) const {
-  for (size_t m = 0; m < segments(); ++m) {
-    const CandidateGrid& grid = candidates.grids[m];
-    std::vector<cv::Mat1f>& costs = candidates.segments[m].costs;
-    const size_t joint = layout_[m].entry ? 1 : 0;
-    const auto first_part = static_cast<size_t>(sought_.segments[m].first_part);
-    for (size_t k = 0; k < layout_[m].parts.size(); ++k) {
-      robustify(first_part + k, grid.positionOf(k, {0.0, 0.0}), grid.lattice.step,
-                costs[joint + k]);
-    }
-  }
+void ChainSearch::addEdgeCosts(size_t m, const std::vector<RootHistogram>& edges,
+                               Candidates& candidates) {
+  candidates.edge_costs.emplace_back();
+  std::vector<cv::Mat1f>& edge_costs = candidates.edge_costs.back();
+  computePartCosts(pixels_, Channel::kEdges, edges, candidates.grids[m],
+                   model_.appearance.edge_weight, edge_costs, edge_workspace_);
+  std::vector<cv::Mat1f>& costs = candidates.segments[m].costs;
+  for (size_t k = 0; k < edge_costs.size(); ++k) cv::add(costs[k], edge_costs[k], costs[k]);
 }
 
-/// `origin`: of the part's state (0, 0).
-void ChainSearch::robustify(size_t part, const cv::Point2d& origin, int step,
-                            cv::Mat1f& costs) const {
+/// Of all parts where the chain has them.
+std::vector<double> ChainSearch::edgeCosts(const Candidates& coarse,
+                                           const ChainMatch& match) const {
+  std::vector<double> costs;
+  for (size_t m = 0; m < segments(); ++m) {
+    const size_t joint = layout_[m].entry ? 1 : 0;
+    for (size_t k = 0; k < layout_[m].parts.size(); ++k) {
+      const cv::Point& state = match.segments[m].states[joint + k];
+      costs.push_back(coarse.edge_costs.empty() ? 0.0 : coarse.edge_costs[m][k](state));
+    }
+  }
+  return costs;
+}
+
+/// The fine stage looks around the parts alone: nothing else is near enough to pull them about.
+void ChainSearch::robustify(Stage stage, Candidates& candidates) const {
   const AppearanceModel& model = model_.appearance;
-  softenCosts(expectations_.outlierCost(part, model.outlier_below), model.outlier_slope, costs);
-  if (range_.travel_weight > 0.0) {
-    addTravelCosts(origin, step, sought_.parts[part].position, range_.travel_weight, costs);
+  for (size_t m = 0; m < segments(); ++m) {
+    const CandidateGrid& grid = candidates.grids[m];
+    const size_t joint = layout_[m].entry ? 1 : 0;
+    for (size_t k = 0; k < layout_[m].parts.size(); ++k) {
+      const size_t part = static_cast<size_t>(sought_.segments[m].first_part) + k;
+      cv::Mat1f& costs = candidates.segments[m].costs[joint + k];
+      if (stage == Stage::kCoarse) {
+        softenCosts(expectations_.outlierCost(part, model.outlier_below), model.outlier_slope,
+                    costs);
+      }
+      if (range_.travel_weight > 0.0) {
+        addTravelCosts(grid.positionOf(k, {0.0, 0.0}), grid.lattice.step,
+                       sought_.parts[part].position, range_.travel_weight, costs);
+      }
+    }
   }
 }
 
@@ -336,16 +364,24 @@ ChainMatch ChainSearch::matched(const std::vector<PoseGrid>& poses,
 /// The parts tell the poses more exactly than the energies of a few poses do, but their springs
 /// hold them near the poses these were laid for: so they are laid once more.
 void ChainSearch::settle(std::vector<SegmentPose> poses,
-                         const std::vector<SegmentCandidates>& candidates, ChainState& found) {
+                         const std::vector<SegmentCandidates>& candidates, FoundChain& found) {
   for (int i = 0; i < kFits; ++i) {
-    fillIn(refineChain(layout_, poses, candidates, fine_workspace_), poses, found);
-    poses = posesOf(found);
+    const std::vector<RefinedPart> parts = refineChain(layout_, poses, candidates, fine_workspace_);
+    if (parts.empty()) return;
+    fillIn(parts, poses, found.state);
+    found.likeness = likeness(parts);
+    poses = posesOf(found.state);
   }
+}
+
+double ChainSearch::likeness(const std::vector<RefinedPart>& parts) const {
+  std::vector<double> costs = edge_costs_;
+  for (size_t k = 0; k < parts.size(); ++k) costs[k] += parts[k].appearance;
+  return expectations_.likeness(costs);
 }
 
 void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,
                          const std::vector<SegmentPose>& poses, ChainState& found) const {
-  if (parts.empty()) return;
   for (size_t k = 0; k < parts.size(); ++k) {
     PartState& part = found.parts[k];
     part.position = parts[k].position;

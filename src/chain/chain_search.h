@@ -26,6 +26,12 @@ struct SearchRange {
   double travel_weight = 0.0;  ///< cost of a part for every pixel from there
 };
 
+/// What a search has found.
+struct FoundChain {
+  ChainState state;
+  double likeness = 0.0;  ///< of PartExpectations; 0 if the springs allow no chain
+};
+
 class ChainSearch {
  public:
   /// `initial`: the object in the first frame, `image_from_segment` and parts only.
@@ -35,8 +41,10 @@ class ChainSearch {
   ChainSearch& operator=(const ChainSearch&) = delete;
 
   const PartExpectations& expectations() const { return expectations_; }
-  /// To be called with every state in which the object was found.
-  void observe(const ChainState& state) { expectations_.observe(state); }
+  /// To be called with every chain that was taken for the object.
+  void observe(const FoundChain& found) {
+    expectations_.observe(found.state.parts, found.likeness);
+  }
 
   /// The image in which find() looks from now on; it must live as long.
   void show(const cv::Mat& image) { pixels_.show(image); }
@@ -44,13 +52,17 @@ class ChainSearch {
   /// `sought` moved to the best chain: parts, poses, confidence, energy and times; its status,
   /// outline and points are those of `sought`. Confidence 0 if the springs allow no chain.
   /// Time as of ChainTracker::update().
-  ChainState find(const ChainState& sought, const SearchRange& range);
+  FoundChain find(const ChainState& sought, const SearchRange& range);
 
  private:
+  /// Edges tell the object from what is around it even where its look has changed somewhat, texture
+  /// tells to a fraction of a pixel where a window lies.
+  enum class Stage { kCoarse, kFine };
   /// What is looked at: one entry a segment.
   struct Candidates {
     std::vector<CandidateGrid> grids;
     std::vector<SegmentCandidates> segments;
+    std::vector<std::vector<cv::Mat1f>> edge_costs;  ///< of the parts, in the coarse stage
     std::vector<PoseGrid> poses;
   };
   /// Of the nodes of each segment.
@@ -66,16 +78,18 @@ class ChainSearch {
   Candidates coarseCandidates();
   Candidates fineCandidates(const Candidates& coarse, const ChainMatch& match);
   Candidates candidatesAround(const NodePositions& centers, const std::vector<SegmentPose>& poses,
-                              int step, double radius);
-  void computeCosts(size_t m, double turn, Candidates& candidates);
-  void robustify(Candidates& candidates) const;
-  void robustify(size_t part, const cv::Point2d& origin, int step, cv::Mat1f& costs) const;
+                              int step, double radius, Stage stage);
+  void computeCosts(size_t m, double turn, Stage stage, Candidates& candidates);
+  void addEdgeCosts(size_t m, const std::vector<RootHistogram>& edges, Candidates& candidates);
+  std::vector<double> edgeCosts(const Candidates& coarse, const ChainMatch& match) const;
+  void robustify(Stage stage, Candidates& candidates) const;
   double turnOf(size_t part) const;
   ChainMatch matched(const std::vector<PoseGrid>& poses,
                      const std::vector<SegmentCandidates>& candidates,
                      ChainSolverWorkspace& workspace) const;
   void settle(std::vector<SegmentPose> poses, const std::vector<SegmentCandidates>& candidates,
-              ChainState& found);
+              FoundChain& found);
+  double likeness(const std::vector<RefinedPart>& parts) const;
   void fillIn(const std::vector<RefinedPart>& parts, const std::vector<SegmentPose>& poses,
               ChainState& found) const;
   void fitSegment(size_t m, const SegmentPose& searched, ChainState& state) const;
@@ -90,9 +104,11 @@ class ChainSearch {
   ChainState sought_;
   std::vector<SegmentPose> previous_;
   SearchRange range_;
+  std::vector<double> edge_costs_;  // of the parts where the coarse search found them
 
   FramePixels pixels_;
-  PartCostsWorkspace cost_workspace_;
+  PartCostsWorkspace color_workspace_;
+  PartCostsWorkspace edge_workspace_;
   TextureCostsWorkspace texture_workspace_;
   // One for each number of states, which would else be allocated anew.
   ChainSolverWorkspace coarse_workspace_;

@@ -20,12 +20,12 @@ namespace {
 constexpr double kWidestSearch = 0.5;
 /// A doubtful object is looked for elsewhere in every so many frames.
 constexpr int kFramesPerLook = 2;
-/// How much more confidence it takes to believe that it is there.
-constexpr double kClearlyBetter = 0.15;
+/// How much more likeness it takes to believe that it is there.
+constexpr double kClearlyBetter = 0.1;
 /// Of what the parts can tell: more than that is hidden of an object that counts as occluded. The
 /// corner windows of a box show mostly background, which changes.
 constexpr double kMostHidden = 0.1;
-/// Of the usual confidence: a state that is trusted to be right.
+/// Of the usual likeness: a state that is trusted to be right.
 constexpr double kTrusted = 0.8;
 
 }  // namespace
@@ -47,7 +47,7 @@ class ChainTracker::Implementation {
     requireSameKind(image, image_size_, image_type_);
     search_.show(image);
     times_ = StepTimes();
-    ChainState found = state_.status == TrackingStatus::kLost ? look(frames_lost_) : follow();
+    FoundChain found = state_.status == TrackingStatus::kLost ? look(frames_lost_) : follow();
     Stopwatch watch;
     accept(std::move(found));
     times_.pose += watch.lap();
@@ -103,17 +103,17 @@ class ChainTracker::Implementation {
     return diagonal * std::min(reach, std::max(model_.search.radius, kWidestSearch));
   }
 
-  ChainState find(const ChainState& sought, const SearchRange& range) {
-    ChainState found = search_.find(sought, range);
-    times_ += found.times;
+  FoundChain find(const ChainState& sought, const SearchRange& range) {
+    FoundChain found = search_.find(sought, range);
+    times_ += found.state.times;
     return found;
   }
 
   /// Where the object is if it has moved on as usual; elsewhere if there is reason to doubt that.
-  ChainState follow() {
+  FoundChain follow() {
     const double radius = searchRadius(0);
-    ChainState found = find(state_, {radius, model_.search.travel_weight / radius});
-    if (!isDoubtful(found.confidence)) {
+    FoundChain found = find(state_, {radius, model_.search.travel_weight / radius});
+    if (!isDoubtful(found)) {
       frames_doubted_ = 0;
       return found;
     }
@@ -123,30 +123,29 @@ class ChainTracker::Implementation {
     } else if (frames_doubted_ % kFramesPerLook == 0) {
       preferBetter(look(frames_doubted_ / kFramesPerLook), found);
     }
-    if (!isDoubtful(found.confidence)) frames_doubted_ = 0;
+    if (!isDoubtful(found)) frames_doubted_ = 0;
     return found;
   }
 
-  bool isDoubtful(double confidence) const {
-    return confidence < model_.search.doubt_below * search_.expectations().usualConfidence();
+  bool isDoubtful(const FoundChain& found) const {
+    return found.likeness < model_.search.doubt_below * search_.expectations().usualLikeness();
   }
 
   /// A chain elsewhere is believed in if it is clearly better and beyond doubt.
-  void preferBetter(ChainState other, ChainState& found) const {
-    const bool is_sure =
-        other.confidence >= model_.search.found_above && !isDoubtful(other.confidence);
-    if (is_sure && other.confidence > found.confidence + kClearlyBetter) found = std::move(other);
+  void preferBetter(FoundChain other, FoundChain& found) const {
+    const bool is_sure = other.state.confidence >= model_.search.found_above && !isDoubtful(other);
+    if (is_sure && other.likeness > found.likeness + kClearlyBetter) found = std::move(other);
   }
 
   /// Just beyond what the hypotheses cover, to one side.
-  ChainState turned(int side) {
+  FoundChain turned(int side) {
     ChainState sought = state_;
     turnAboutMiddle(side * sweepStep(model_.segments.front()), sought);
     return find(sought, {searchRadius(1), 0.0});
   }
 
   /// Around where the object was last seen for sure, at another orientation every other time.
-  ChainState look(int failures) {
+  FoundChain look(int failures) {
     ChainState sought = trusted_;
     turnAboutMiddle(soughtTurn(model_.segments.front(), failures), sought);
     return find(sought, {searchRadius(failures), 0.0});
@@ -154,7 +153,8 @@ class ChainTracker::Implementation {
 
   /// What was found becomes the state if it is good enough; otherwise the object is LOST and stays
   /// where it was last believed to be.
-  void accept(ChainState found) {
+  void accept(FoundChain chain) {
+    ChainState& found = chain.state;
     const double hidden = search_.expectations().hiddenShare(found.parts);
     const bool is_seen = hidden <= kMostHidden;
     found.status = nextStatus(state_.status, found.confidence, is_seen, model_.search);
@@ -166,9 +166,9 @@ class ChainTracker::Implementation {
     }
     frames_lost_ = 0;
     shape_.carry(found);
-    search_.observe(found);
+    search_.observe(chain);
+    if (chain.likeness >= kTrusted * search_.expectations().usualLikeness()) trusted_ = found;
     state_ = std::move(found);
-    if (state_.confidence >= kTrusted * search_.expectations().usualConfidence()) trusted_ = state_;
   }
 
   ChainModel model_;

@@ -29,18 +29,32 @@ ObjectAppearance::ObjectAppearance(const cv::Mat& image, const ChainLayout& layo
                                    const AppearanceModel& model)
     : palette_(learnPalette(image, layout.silhouette, model)) {
   FramePixels pixels(palette_, image);
+  learnFrame(image, pixels);
+  for (const SegmentLayout& segment : layout.segments) {
+    for (const PartLayout& part : segment.parts) {
+      windows_.push_back({segment.image_from_segment.apply(part.position), part.side});
+      parts_[{windows_.size() - 1, 0}] = learnUpright(windows_.back(), pixels);
+    }
+  }
+}
+
+void ObjectAppearance::learnFrame(const cv::Mat& image, FramePixels& pixels) {
   const cv::Rect all(cv::Point(), image.size());
   entries_ = pixels.entries(all).clone();
   grey_ = pixels.grey(all).clone();
-  for (const SegmentLayout& segment : layout.segments) {
-    for (const PartLayout& part : segment.parts) {
-      const cv::Point2d center = segment.image_from_segment.apply(part.position);
-      windows_.push_back({center, part.side});
-      PartAppearance appearance = learnTurned(windows_.back(), 0.0);
-      appearance.colors = learnPart(pixels, center, part.side);
-      parts_[{windows_.size() - 1, 0}] = appearance;
-    }
+  EdgeDirections directions;
+  for (const cv::Mat1i& gradient :
+       directions.gradients(pixels.grey(EdgeDirections::neededFor(all)))) {
+    gradients_.push_back(gradient.clone());
   }
+}
+
+/// As learnTurned(), but with histograms of the very windows that are searched.
+PartAppearance ObjectAppearance::learnUpright(const Window& window, FramePixels& pixels) const {
+  PartAppearance appearance = learnTurned(window, 0.0);
+  appearance.colors = learnPart(pixels, Channel::kColors, window.center, window.side);
+  appearance.edges = learnPart(pixels, Channel::kEdges, window.center, window.side);
+  return appearance;
 }
 
 const PartAppearance& ObjectAppearance::part(size_t index, double turn) {
@@ -55,32 +69,41 @@ PartAppearance ObjectAppearance::learnTurned(const Window& window, double turn) 
   const int samples = std::min(kMostSamples, kSamplesPerPixel * side);
   const double spacing = static_cast<double>(side) / samples;
   // From one sample to the next, along a row and along a column.
+  const cv::Point2f rotation(static_cast<float>(std::cos(turn)),
+                             static_cast<float>(std::sin(turn)));
   const cv::Point2d along(spacing * std::cos(turn), -spacing * std::sin(turn));
   const cv::Point2d across(-along.y, along.x);
   const cv::Point2d first = window.center - 0.5 * (samples - 1) * (along + across);
   const cv::Rect image(cv::Point(), entries_.size());
-  std::vector<int> counts(static_cast<size_t>(palette_.size()), 0);
+  RootHistogram colors(static_cast<size_t>(palette_.size()), 0.0F);
+  RootHistogram edges(kEdgeCodes, 0.0F);
   int quadrants[2][2] = {{0, 0}, {0, 0}};
   for (int row = 0; row < samples; ++row) {
     for (int column = 0; column < samples; ++column) {
       const cv::Point pixel = first + column * along + row * across;
-      const int entry = image.contains(pixel) ? entries_(pixel) : ColorPalette::kOther;
-      ++counts[static_cast<size_t>(entry)];
+      const bool is_inside = image.contains(pixel);
+      ++colors[is_inside ? entries_(pixel) : ColorPalette::kOther];
+      ++edges[static_cast<size_t>(is_inside ? turnedEdge(pixel, rotation) : kNoEdge)];
       const cv::Point nearest(std::clamp(pixel.x, 0, image.width - 1),
                               std::clamp(pixel.y, 0, image.height - 1));
       quadrants[2 * row / samples][2 * column / samples] += grey_(nearest);
     }
   }
   const auto all = static_cast<float>(samples * samples);
-  PartAppearance appearance;
-  for (int count : counts) {
-    appearance.colors.push_back(std::sqrt(static_cast<float>(count) / all));
+  for (RootHistogram* histogram : {&colors, &edges}) {
+    for (float& count : *histogram) count = std::sqrt(count / all);
   }
   const auto mean = [&](int row, int column) {
     return 4.0F * static_cast<float>(quadrants[row][column]) / all;
   };
-  appearance.texture = textureOf(mean(0, 0), mean(0, 1), mean(1, 0), mean(1, 1));
-  return appearance;
+  return {colors, edges, textureOf(mean(0, 0), mean(0, 1), mean(1, 0), mean(1, 1))};
+}
+
+/// Code of a pixel's edge after a turn.
+int ObjectAppearance::turnedEdge(const cv::Point& pixel, const cv::Point2f& rotation) const {
+  const auto right = static_cast<float>(gradients_[0](pixel));
+  const auto down = static_cast<float>(gradients_[1](pixel));
+  return edgeCode(rotation.x * right - rotation.y * down, rotation.y * right + rotation.x * down);
 }
 
 }  // namespace chain_tracker

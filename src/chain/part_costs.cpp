@@ -27,10 +27,10 @@ void coefficientToCostRow(float* __restrict value, float weight, int columns) {
   }
 }
 
-/// A window's other entries do not touch the part's costs.
-void markEntries(const RootHistogram& part, std::vector<bool>& wanted) {
-  for (size_t entry = 0; entry < part.size(); ++entry) {
-    if (part[entry] != 0.0F) wanted[entry] = true;
+/// A window's other codes do not touch the part's costs.
+void markCodes(const RootHistogram& part, std::vector<bool>& wanted) {
+  for (size_t code = 0; code < part.size(); ++code) {
+    if (part[code] != 0.0F) wanted[code] = true;
   }
 }
 
@@ -40,10 +40,10 @@ void computePartCost(const std::vector<cv::Mat1i>& counts, const RootHistogram& 
   for (int row = 0; row < cost.rows; ++row) {
     float* out = cost[row];
     std::fill(out, out + cost.cols, 0.0F);
-    for (size_t entry = 0; entry < part.size(); ++entry) {
-      if (part[entry] == 0.0F) continue;
-      accumulateRow(counts[entry][corner.y + row] + corner.x,
-                    part[entry] / static_cast<float>(side), out, cost.cols);
+    for (size_t code = 0; code < part.size(); ++code) {
+      if (part[code] == 0.0F) continue;
+      accumulateRow(counts[code][corner.y + row] + corner.x, part[code] / static_cast<float>(side),
+                    out, cost.cols);
     }
     coefficientToCostRow(out, weight, cost.cols);
   }
@@ -87,23 +87,24 @@ CandidateGrid makeCandidateGrid(const std::vector<cv::Point2d>& centers, double 
   return grid;
 }
 
-void computePartCosts(FramePixels& pixels, const std::vector<RootHistogram>& parts,
+void computePartCosts(FramePixels& pixels, Channel channel, const std::vector<RootHistogram>& parts,
                       const CandidateGrid& grid, double weight, std::vector<cv::Mat1f>& costs,
                       PartCostsWorkspace& workspace) {
   const bool is_sparse = grid.isSparse();
-  const auto size = static_cast<size_t>(pixels.palette().size());
+  const auto size = static_cast<size_t>(pixels.codeCount(channel));
   const int side = grid.lattice.window_cells * grid.lattice.step;
   if (!is_sparse) {
     std::vector<bool> wanted(size, false);
-    for (const RootHistogram& part : parts) markEntries(part, wanted);
-    computeWindowHistograms(pixels, grid.lattice, wanted, workspace.counts, workspace.histograms);
+    for (const RootHistogram& part : parts) markCodes(part, wanted);
+    computeWindowHistograms(pixels, channel, grid.lattice, wanted, workspace.counts,
+                            workspace.histograms);
   }
   costs.resize(parts.size());
   for (size_t k = 0; k < parts.size(); ++k) {
     if (is_sparse) {
       std::vector<bool> wanted(size, false);
-      markEntries(parts[k], wanted);
-      computeWindowHistograms(pixels, grid.latticeOf(k), wanted, workspace.counts,
+      markCodes(parts[k], wanted);
+      computeWindowHistograms(pixels, channel, grid.latticeOf(k), wanted, workspace.counts,
                               workspace.histograms);
     }
     const cv::Point corner = is_sparse ? cv::Point(0, 0) : grid.corners[k];
@@ -112,7 +113,8 @@ void computePartCosts(FramePixels& pixels, const std::vector<RootHistogram>& par
   }
 }
 
-RootHistogram learnPart(FramePixels& pixels, const cv::Point2d& center, double side) {
+RootHistogram learnPart(FramePixels& pixels, Channel channel, const cv::Point2d& center,
+                        double side) {
   WindowLattice lattice;
   lattice.window_cells = std::max(1, static_cast<int>(std::lround(side)));
   const cv::Point2d corner = center - cv::Point2d(1.0, 1.0) * (0.5 * (lattice.window_cells - 1));
@@ -120,8 +122,8 @@ RootHistogram learnPart(FramePixels& pixels, const cv::Point2d& center, double s
   lattice.size = {2, 2};
   std::vector<cv::Mat1i> counts;
   WindowHistogramsWorkspace workspace;
-  const std::vector<bool> all(static_cast<size_t>(pixels.palette().size()), true);
-  computeWindowHistograms(pixels, lattice, all, counts, workspace);
+  const std::vector<bool> all(static_cast<size_t>(pixels.codeCount(channel)), true);
+  computeWindowHistograms(pixels, channel, lattice, all, counts, workspace);
   const auto right = static_cast<float>(corner.x - lattice.origin.x);
   const auto down = static_cast<float>(corner.y - lattice.origin.y);
   const auto area = static_cast<float>(lattice.window_cells * lattice.window_cells);

@@ -28,6 +28,10 @@ double evidenceOf(const PartAppearance& learned, const AppearanceModel& model) {
   return std::max(least, model.weight * colors + model.haar_weight * texture);
 }
 
+double edgeEvidenceOf(const PartAppearance& learned, const AppearanceModel& model) {
+  return model.edge_weight * std::sqrt(std::max(0.0, 1.0 - double(learned.edges[kNoEdge])));
+}
+
 double followed(double usual, double now, double sinks) {
   return usual + (now > usual ? kRise : sinks) * (now - usual);
 }
@@ -38,7 +42,9 @@ PartExpectations::PartExpectations(ObjectAppearance& appearance, const Appearanc
                                    size_t parts)
     : usual_(parts, 1.0) {
   for (size_t k = 0; k < parts; ++k) {
-    evidence_.push_back(evidenceOf(appearance.part(k, 0.0), model));
+    const PartAppearance& learned = appearance.part(k, 0.0);
+    evidence_.push_back(evidenceOf(learned, model));
+    edge_evidence_.push_back(edgeEvidenceOf(learned, model));
   }
 }
 
@@ -47,7 +53,18 @@ double PartExpectations::confidence(size_t part, double cost) const {
 }
 
 double PartExpectations::outlierCost(size_t part, double share) const {
-  return evidence_[part] * (1.0 - share * usual_[part]);
+  return (evidence_[part] + edge_evidence_[part]) * (1.0 - share * usual_[part]);
+}
+
+double PartExpectations::likeness(const std::vector<double>& costs) const {
+  double like = 0.0;
+  double all = 0.0;
+  for (size_t k = 0; k < costs.size(); ++k) {
+    const double evidence = evidence_[k] + edge_evidence_[k];
+    like += std::clamp(evidence - costs[k], 0.0, evidence);
+    all += evidence;
+  }
+  return like / all;
 }
 
 double PartExpectations::meanConfidence(const std::vector<PartState>& parts, size_t first,
@@ -71,12 +88,11 @@ double PartExpectations::hiddenShare(const std::vector<PartState>& parts) const 
   return hidden / all;
 }
 
-void PartExpectations::observe(const ChainState& state) {
+void PartExpectations::observe(const std::vector<PartState>& parts, double likeness) {
   for (size_t k = 0; k < usual_.size(); ++k) {
-    usual_[k] = followed(usual_[k], state.parts[k].confidence, kPartSinks);
+    usual_[k] = followed(usual_[k], parts[k].confidence, kPartSinks);
   }
-  usual_of_object_ =
-      has_observed_ ? followed(usual_of_object_, state.confidence, kObjectSinks) : state.confidence;
+  usual_likeness_ = has_observed_ ? followed(usual_likeness_, likeness, kObjectSinks) : likeness;
   has_observed_ = true;
 }
 

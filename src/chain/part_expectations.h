@@ -18,13 +18,18 @@ class PartExpectations {
 
   size_t parts() const { return evidence_.size(); }
 
-  /// Confidence of a part whose window costs `cost`, in [0, 1]: 0 where it costs what a flat piece
-  /// of background would.
+  /// Confidence of a part whose window costs `cost` by colours and texture, in [0, 1]: 0 where it
+  /// costs what a flat piece of background would.
   double confidence(size_t part, double cost) const;
 
-  /// Cost from which on a part's window is taken for that of something else: its confidence is
-  /// then `share` of what it usually is.
+  /// Cost by colours and edges from which on a part's window is taken for that of something else:
+  /// its confidence would then be `share` of what it usually is.
   double outlierCost(size_t part, double share) const;
+
+  /// How much parts look as learned whose windows cost `costs` by all channels, in [0, 1]. Busy
+  /// backgrounds have edges, too: it tells which of two chains is the object, but not whether
+  /// either is, as confidences do.
+  double likeness(const std::vector<double>& costs) const;
 
   /// Mean confidence of `count` parts, weighted by what they can tell.
   double meanConfidence(const std::vector<PartState>& parts, size_t first, size_t count) const;
@@ -33,15 +38,16 @@ class PartExpectations {
   double hiddenShare(const std::vector<PartState>& parts) const;
 
   /// Of the object while it was believed in, slow to sink; 1 before anything was observed.
-  double usualConfidence() const { return usual_of_object_; }
+  double usualLikeness() const { return usual_likeness_; }
 
   /// Takes in what a frame in which the object was found has shown.
-  void observe(const ChainState& state);
+  void observe(const std::vector<PartState>& parts, double likeness);
 
  private:
-  std::vector<double> evidence_;  ///< of each part: what it would cost on a flat background
-  std::vector<double> usual_;     ///< confidence of each part
-  double usual_of_object_ = 1.0;
+  std::vector<double> evidence_;       ///< of each part: what it would cost on a flat background
+  std::vector<double> edge_evidence_;  ///< the same by edges, which the other leaves out
+  std::vector<double> usual_;          ///< confidence of each part
+  double usual_likeness_ = 1.0;
   bool has_observed_ = false;
 };
 

@@ -27,6 +27,8 @@ void FramePixels::show(const cv::Mat& image) {
   image_ = image;
   entries_.pixels.create(image.size());
   entries_.known.clear();
+  edges_.pixels.create(image.size());
+  edges_.known.clear();
   grey_.known.clear();
   if (image.channels() == 3) {
     grey_.pixels.create(image.size());
@@ -36,34 +38,56 @@ void FramePixels::show(const cv::Mat& image) {
   }
 }
 
-/// `compute` is given the part of the plane that is to be filled.
+/// `compute` is given the part of the plane that is to be filled, by its place and as a plane.
 template <typename Compute>
 void FramePixels::ensure(const cv::Rect& inside, PartialPlane& plane, const Compute& compute) {
   const auto holds = [&](const cv::Rect& known) { return contains(known, inside); };
   if (std::any_of(plane.known.begin(), plane.known.end(), holds)) return;
   cv::Mat1b target = plane.pixels(inside);
-  compute(target);
+  compute(inside, target);
   plane.known.push_back(inside);
 }
 
-cv::Mat1b FramePixels::entries(const cv::Rect& region) {
+/// The same of a plane whose code outside the image is 0.
+template <typename Compute>
+cv::Mat1b FramePixels::zeroOutside(const cv::Rect& region, PartialPlane& plane,
+                                   const Compute& compute) const {
   const cv::Rect inside = region & cv::Rect(cv::Point(), image_.size());
-  if (!inside.empty()) {
-    ensure(inside, entries_, [&](cv::Mat1b& out) { palette_.classify(image_, inside, out); });
-  }
-  if (inside == region) return entries_.pixels(region);
-  reuse(entries_.padded, region.size());
-  entries_.padded.setTo(ColorPalette::kOther);
-  if (!inside.empty()) {
-    entries_.pixels(inside).copyTo(entries_.padded(inside - region.tl()));
-  }
-  return entries_.padded;
+  if (!inside.empty()) ensure(inside, plane, compute);
+  if (inside == region) return plane.pixels(region);
+  reuse(plane.padded, region.size());
+  plane.padded.setTo(0);
+  if (!inside.empty()) plane.pixels(inside).copyTo(plane.padded(inside - region.tl()));
+  return plane.padded;
+}
+
+cv::Mat1b FramePixels::entries(const cv::Rect& region) {
+  static_assert(ColorPalette::kOther == 0);
+  return zeroOutside(region, entries_, [&](const cv::Rect& inside, cv::Mat1b& out) {
+    palette_.classify(image_, inside, out);
+  });
+}
+
+cv::Mat1b FramePixels::edges(const cv::Rect& region) {
+  static_assert(kNoEdge == 0);
+  return zeroOutside(region, edges_, [&](const cv::Rect& inside, cv::Mat1b& out) {
+    edge_directions_.compute(grey(EdgeDirections::neededFor(inside)), out);
+  });
+}
+
+cv::Mat1b FramePixels::codes(Channel channel, const cv::Rect& region) {
+  return channel == Channel::kColors ? entries(region) : edges(region);
+}
+
+int FramePixels::codeCount(Channel channel) const {
+  return channel == Channel::kColors ? palette_.size() : kEdgeCodes;
 }
 
 cv::Mat1b FramePixels::grey(const cv::Rect& region) {
   const cv::Rect inside = nearestPixels(region, image_.size());
-  ensure(inside, grey_,
-         [&](cv::Mat1b& out) { cv::cvtColor(image_(inside), out, cv::COLOR_BGR2GRAY); });
+  ensure(inside, grey_, [&](const cv::Rect& part, cv::Mat1b& out) {
+    cv::cvtColor(image_(part), out, cv::COLOR_BGR2GRAY);
+  });
   if (inside == region) return grey_.pixels(region);
   const cv::Rect whole = region | inside;
   reuse(grey_.padded, whole.size());

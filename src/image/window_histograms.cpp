@@ -11,45 +11,45 @@ namespace chain_tracker {
 namespace {
 
 constexpr int kLargestByte = std::numeric_limits<uchar>::max();
-constexpr size_t kEntries = 256;
+constexpr size_t kCodes = 256;
 
-/// Palette entries that are counted, in the order of the palette.
+/// Codes that are counted, in their order.
 std::vector<size_t> listWanted(const std::vector<bool>& wanted) {
-  std::vector<size_t> entries;
-  for (size_t entry = 0; entry < wanted.size(); ++entry) {
-    if (wanted[entry]) entries.push_back(entry);
+  std::vector<size_t> codes;
+  for (size_t code = 0; code < wanted.size(); ++code) {
+    if (wanted[code]) codes.push_back(code);
   }
-  return entries;
+  return codes;
 }
 
-/// At (row, i * columns + column): the pixels in the cell that have the i-th wanted entry. What is
+/// At (row, i * columns + column): the pixels in the cell that have the i-th wanted code. What is
 /// not wanted is counted behind that.
 template <typename Cell>
-cv::Mat_<Cell> countCells(const cv::Mat1b& entries, int step, const std::vector<size_t>& wanted,
+cv::Mat_<Cell> countCells(const cv::Mat1b& codes, int step, const std::vector<size_t>& wanted,
                           int columns, cv::Mat_<Cell>& plane) {
   const int width = columns * static_cast<int>(wanted.size());
-  reuse(plane, {width + columns, entries.rows / step});
+  reuse(plane, {width + columns, codes.rows / step});
   plane.setTo(0);
-  std::array<int, kEntries> offsets;
+  std::array<int, kCodes> offsets;
   offsets.fill(width);
   for (size_t i = 0; i < wanted.size(); ++i) offsets[wanted[i]] = static_cast<int>(i) * columns;
   for (int y = 0; y < plane.rows * step; ++y) {
     Cell* const cells = plane[y / step];
-    const uchar* entry = entries[y];
+    const uchar* code = codes[y];
     for (int column = 0; column < columns; ++column) {
-      for (int i = 0; i < step; ++i) ++cells[offsets[*entry++] + column];
+      for (int i = 0; i < step; ++i) ++cells[offsets[*code++] + column];
     }
   }
   return plane.colRange(0, width);
 }
 
-/// Sums over the windows, the maps of the wanted entries side by side.
-const cv::Mat1i& sumWindows(const cv::Mat1b& entries, const WindowLattice& lattice,
+/// Sums over the windows, the maps of the wanted codes side by side.
+const cv::Mat1i& sumWindows(const cv::Mat1b& codes, const WindowLattice& lattice,
                             const std::vector<size_t>& wanted, int columns,
                             WindowHistogramsWorkspace& workspace) {
   const int cell_area = lattice.step * lattice.step;
   const auto sum = [&](auto& plane) -> const cv::Mat1i& {
-    const auto counts = countCells(entries, lattice.step, wanted, columns, plane);
+    const auto counts = countCells(codes, lattice.step, wanted, columns, plane);
     return workspace.sums.compute(counts, lattice.window_cells, cell_area);
   };
   return cell_area <= kLargestByte ? sum(workspace.small_cells) : sum(workspace.cells);
@@ -57,18 +57,18 @@ const cv::Mat1i& sumWindows(const cv::Mat1b& entries, const WindowLattice& latti
 
 }  // namespace
 
-void computeWindowHistograms(FramePixels& pixels, const WindowLattice& lattice,
+void computeWindowHistograms(FramePixels& pixels, Channel channel, const WindowLattice& lattice,
                              const std::vector<bool>& wanted, std::vector<cv::Mat1i>& counts,
                              WindowHistogramsWorkspace& workspace) {
   counts.resize(wanted.size());
-  const std::vector<size_t> entries = listWanted(wanted);
-  if (entries.empty()) return;
+  const std::vector<size_t> codes = listWanted(wanted);
+  if (codes.empty()) return;
   const int columns = lattice.size.width + lattice.window_cells - 1;
   const cv::Mat1i& sums =
-      sumWindows(pixels.entries(lattice.pixels()), lattice, entries, columns, workspace);
-  for (size_t i = 0; i < entries.size(); ++i) {
+      sumWindows(pixels.codes(channel, lattice.pixels()), lattice, codes, columns, workspace);
+  for (size_t i = 0; i < codes.size(); ++i) {
     const int first = static_cast<int>(i) * columns;
-    counts[entries[i]] = sums(cv::Rect({first, 0}, lattice.size));
+    counts[codes[i]] = sums(cv::Rect({first, 0}, lattice.size));
   }
 }
 

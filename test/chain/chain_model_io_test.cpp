@@ -60,6 +60,7 @@ appearance:
   ring: 0.75
   min_object_share: 0.375
   weight: 5.5
+  edge_weight: 7.5
   haar_weight: 2.25
   outlier_below: 0.375
   outlier_slope: 0.75
@@ -94,7 +95,7 @@ ChainModel everyKeyModel() {
   model.segments.emplace_back();
   model.segments[1].name = "nozzle";
   model.joints = {{-0.5, 1.5}};
-  model.appearance = {31, 0.75, 0.375, 5.5, 2.25, 0.375, 0.75};
+  model.appearance = {31, 0.75, 0.375, 5.5, 7.5, 2.25, 0.375, 0.75};
   model.search = {0.09, 0.125, 0.625, 0.3, 0.625, 0.875};
   return model;
 }
@@ -121,7 +122,7 @@ TEST(ParseChainModel, noKeyIsUntested) {
       ++keys;
     }
   }
-  EXPECT_EQ(36U, keys);
+  EXPECT_EQ(37U, keys);
 }
 
 TEST(ParseChainModel, keysLeftOutKeepTheirDefaults) {

@@ -75,6 +75,7 @@ std::vector<Limits> allLimits() {
       appearanceLimits("ring", &AppearanceModel::ring, 0.05, 3.0),
       appearanceLimits("min_object_share", &AppearanceModel::min_object_share, 0.0, 0.95),
       appearanceLimits("weight", &AppearanceModel::weight, 0.1, 1000.0),
+      appearanceLimits("edge_weight", &AppearanceModel::edge_weight, 0.0, 1000.0),
       appearanceLimits("haar_weight", &AppearanceModel::haar_weight, 0.0, 1000.0),
       appearanceLimits("outlier_below", &AppearanceModel::outlier_below, 0.0, 1.0),
       appearanceLimits("outlier_slope", &AppearanceModel::outlier_slope, 0.0, 1.0),

@@ -88,7 +88,8 @@ TEST(ObjectAppearance, learnsEachPartWhereItLies) {
   const SegmentLayout& segment = layout.segments[0];
   for (size_t k = 0; k < segment.parts.size(); ++k) {
     const cv::Point2d center = segment.image_from_segment.apply(segment.parts[k].position);
-    EXPECT_EQ(learnPart(pixels, center, segment.parts[k].side), appearance.part(k, 0.0).colors)
+    EXPECT_EQ(learnPart(pixels, Channel::kColors, center, segment.parts[k].side),
+              appearance.part(k, 0.0).colors)
         << "part " << k;
   }
   const auto red = static_cast<size_t>(entryAt(appearance, image, {140, 120}));
@@ -139,7 +140,8 @@ TEST(ObjectAppearance, ofATurnedPartIsThatOfTheTurnedImage) {
       cv::warpAffine(image, turned, cv::getRotationMatrix2D(center, degrees, 1.0), image.size(),
                      cv::INTER_NEAREST);
       FramePixels pixels(appearance.palette(), turned);
-      const RootHistogram expected = learnPart(pixels, center, segment.parts[k].side);
+      const RootHistogram expected =
+          learnPart(pixels, Channel::kColors, center, segment.parts[k].side);
       const RootHistogram& actual = appearance.part(k, turn).colors;
       ASSERT_EQ(expected.size(), actual.size());
       for (size_t entry = 0; entry < expected.size(); ++entry) {
@@ -163,6 +165,29 @@ TEST(ObjectAppearance, textureTurnsWithTheObject) {
   const WindowTexture quarter = appearance.part(0, CV_PI / 2.0).texture;
   EXPECT_LT(quarter[1], -0.5F) << "the left has become the top";
   EXPECT_NEAR(0.0F, quarter[0], 0.2F);
+}
+
+/// It is brighter on the right of the window astride both.
+TEST(ObjectAppearance, edgesTurnWithTheObject) {
+  ChainModel model = boxModel();
+  model.segments[0].parts = 2;
+  model.segments[0].layout = Layout::kElongated;
+  const cv::Mat image = redAndGreenBox();
+  const ChainLayout layout = layOut(model, {{150, 120}, {170, 120}});
+  ObjectAppearance appearance(image, layout, model.appearance);
+  const SegmentLayout& segment = layout.segments[0];
+  FramePixels pixels(appearance.palette(), image);
+  const cv::Point2d center = segment.image_from_segment.apply(segment.parts[0].position);
+  EXPECT_EQ(learnPart(pixels, Channel::kEdges, center, segment.parts[0].side),
+            appearance.part(0, 0.0).edges);
+  const auto strongest = [&](double turn) {
+    const RootHistogram& edges = appearance.part(0, turn).edges;
+    return std::max_element(edges.begin() + 1, edges.end()) - edges.begin();
+  };
+  EXPECT_EQ(edgeCode(100.0F, 0.0F), strongest(0.0));
+  EXPECT_EQ(edgeCode(100.0F, 100.0F), strongest(CV_PI / 4.0));
+  EXPECT_EQ(edgeCode(0.0F, 100.0F), strongest(CV_PI / 2.0));
+  EXPECT_EQ(edgeCode(-100.0F, 0.0F), strongest(CV_PI));
 }
 
 TEST(ObjectAppearance, roundsTurnsToTwentiethsOfARadian) {

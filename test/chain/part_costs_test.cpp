@@ -106,14 +106,19 @@ TEST(MakeCandidateGrid, windowsAreRoundedToWholeCells) {
   EXPECT_EQ(1, cells(2.0, 9));
 }
 
-TEST(ComputePartCosts, equalTheBhattacharyyaDistanceOfCountedPixels) {
+class PartCostsOfChannel : public testing::TestWithParam<Channel> {};
+
+TEST_P(PartCostsOfChannel, equalTheBhattacharyyaDistanceOfCountedPixels) {
   RandomInputs random(4);
   for (int type : {CV_8UC3, CV_8UC1}) {
     for (int step : {1, 2, 5}) {
       const cv::Mat image = texture(random, {70, 50}, type);
       const ColorPalette palette = somePalette(image);
       FramePixels pixels(palette, image);
-      const cv::Mat1b entries = brute_force::entriesOf(image, palette);
+      const int code_count = pixels.codeCount(GetParam());
+      const cv::Point border(60, 40);
+      const cv::Mat1b codes =
+          pixels.codes(GetParam(), {-border, image.size() + cv::Size(2 * border)}).clone();
       // Parts inside the image, over its border, and outside it.
       const std::vector<cv::Point2d> centers = {{20, 21}, {36, 24}, {66, 40}, {-30, 10}};
       const double side = 13.0;
@@ -122,23 +127,23 @@ TEST(ComputePartCosts, equalTheBhattacharyyaDistanceOfCountedPixels) {
       SCOPED_TRACE(textOf(grid));
       std::vector<RootHistogram> parts;
       for (const cv::Point2d& center : centers) {
-        parts.push_back(learnPart(pixels, center, side));
+        parts.push_back(learnPart(pixels, GetParam(), center, side));
       }
       std::vector<cv::Mat1f> costs;
       PartCostsWorkspace workspace;
-      computePartCosts(pixels, parts, grid, weight, costs, workspace);
+      computePartCosts(pixels, GetParam(), parts, grid, weight, costs, workspace);
 
       ASSERT_EQ(centers.size(), costs.size());
       for (size_t k = 0; k < centers.size(); ++k) {
         const auto learned =
-            brute_force::countWindow(entries, palette.size(), cornerOf(centers[k], 13), 13);
+            brute_force::countWindow(codes, code_count, border + cornerOf(centers[k], 13), 13);
         cv::Mat1d expected(grid.states);
         cv::Mat1d squared(grid.states);
         for (int row = 0; row < grid.states.height; ++row) {
           for (int column = 0; column < grid.states.width; ++column) {
             const int window = grid.lattice.window_cells * step;
             const cv::Point corner = cornerOf(grid.positionOf(k, cv::Point(column, row)), window);
-            const auto seen = brute_force::countWindow(entries, palette.size(), corner, window);
+            const auto seen = brute_force::countWindow(codes, code_count, border + corner, window);
             expected(row, column) = 1.0 - bhattacharyya(learned, seen);
             const double cost = costs[k](row, column);
             squared(row, column) = cost / weight * cost / weight;
@@ -153,6 +158,9 @@ TEST(ComputePartCosts, equalTheBhattacharyyaDistanceOfCountedPixels) {
   }
 }
 
+INSTANTIATE_TEST_SUITE_P(Channels, PartCostsOfChannel,
+                         testing::Values(Channel::kColors, Channel::kEdges));
+
 TEST(ComputePartCosts, nothingInCommonCostsTheWholeWeight) {
   const cv::Mat image(30, 30, CV_8UC3, cv::Scalar(20, 20, 200));
   const ColorPalette palette = somePalette(image);
@@ -162,7 +170,7 @@ TEST(ComputePartCosts, nothingInCommonCostsTheWholeWeight) {
   const CandidateGrid grid = makeCandidateGrid({{15, 15}}, 8.0, 2, 4.0);
   std::vector<cv::Mat1f> costs;
   PartCostsWorkspace workspace;
-  computePartCosts(pixels, {only_other}, grid, 6.0, costs, workspace);
+  computePartCosts(pixels, Channel::kColors, {only_other}, grid, 6.0, costs, workspace);
   EXPECT_EQ("", firstDifference(cv::Mat1f(grid.states, 6.0F), costs[0]));
 }
 
@@ -174,10 +182,10 @@ TEST(ComputePartCosts, partIsCheapestWhereItWasLearned) {
   const CandidateGrid grid = makeCandidateGrid({{40, 40}}, 15.0, 1, 20.0);
   const cv::Point learned_state(27, 13);
   const RootHistogram part =
-      learnPart(pixels, grid.positionOf(0, cv::Point2d(learned_state)), 15.0);
+      learnPart(pixels, Channel::kColors, grid.positionOf(0, cv::Point2d(learned_state)), 15.0);
   std::vector<cv::Mat1f> costs;
   PartCostsWorkspace workspace;
-  computePartCosts(pixels, {part}, grid, 1.0, costs, workspace);
+  computePartCosts(pixels, Channel::kColors, {part}, grid, 1.0, costs, workspace);
   cv::Point cheapest;
   cv::minMaxLoc(costs[0], nullptr, nullptr, &cheapest);
   EXPECT_EQ(learned_state, cheapest);
@@ -188,7 +196,7 @@ TEST(ComputePartCosts, workspaceOfAnotherGridLeavesNoTrace) {
   const cv::Mat image = texture(random, {60, 60}, CV_8UC3);
   const ColorPalette palette = somePalette(image);
   FramePixels pixels(palette, image);
-  const RootHistogram part = learnPart(pixels, {30, 30}, 12.0);
+  const RootHistogram part = learnPart(pixels, Channel::kColors, {30, 30}, 12.0);
   std::vector<cv::Mat1f> reused;
   PartCostsWorkspace workspace;
   const std::vector<CandidateGrid> grids = {makeCandidateGrid({{30, 30}, {40, 20}}, 12.0, 1, 9.0),
@@ -196,10 +204,10 @@ TEST(ComputePartCosts, workspaceOfAnotherGridLeavesNoTrace) {
   for (const CandidateGrid& grid : grids) {
     SCOPED_TRACE(textOf(grid));
     const std::vector<RootHistogram> parts(grid.corners.size(), part);
-    computePartCosts(pixels, parts, grid, 2.0, reused, workspace);
+    computePartCosts(pixels, Channel::kColors, parts, grid, 2.0, reused, workspace);
     std::vector<cv::Mat1f> fresh;
     PartCostsWorkspace fresh_workspace;
-    computePartCosts(pixels, parts, grid, 2.0, fresh, fresh_workspace);
+    computePartCosts(pixels, Channel::kColors, parts, grid, 2.0, fresh, fresh_workspace);
     ASSERT_EQ(fresh.size(), reused.size());
     for (size_t k = 0; k < fresh.size(); ++k) {
       EXPECT_EQ("", firstDifference(fresh[k], reused[k])) << "part " << k;
@@ -217,7 +225,8 @@ TEST(LearnPart, countsTheWindowAroundTheCenter) {
     const int side = random.integer(1, 25);
     const cv::Point corner(random.integer(-20, 60), random.integer(-20, 60));
     const cv::Point2d center = cv::Point2d(corner) + 0.5 * cv::Point2d(side - 1, side - 1);
-    const RootHistogram part = learnPart(pixels, center, side + random.real(-0.49, 0.49));
+    const RootHistogram part =
+        learnPart(pixels, Channel::kColors, center, side + random.real(-0.49, 0.49));
     const auto window = brute_force::countWindow(entries, palette.size(), corner, side);
     ASSERT_EQ(window.counts.size(), part.size());
     for (size_t entry = 0; entry < part.size(); ++entry) {
@@ -242,7 +251,7 @@ TEST(LearnPart, interpolatesBetweenTheWindowsOfWholePixels) {
     const cv::Point corner(random.integer(-10, 50), random.integer(-10, 30));
     const cv::Point2d rest = random.point(0.0, 0.999);
     const cv::Point2d center = cv::Point2d(corner) + rest + 0.5 * cv::Point2d(side - 1, side - 1);
-    const RootHistogram part = learnPart(pixels, center, side);
+    const RootHistogram part = learnPart(pixels, Channel::kColors, center, side);
     for (size_t entry = 0; entry < part.size(); ++entry) {
       const double expected =
           (1.0 - rest.x) * (1.0 - rest.y) * share(corner, side, entry) +

@@ -25,14 +25,15 @@ class PartExpectationsTest : public testing::Test {
     return model;
   }
 
-  /// A frame in which every part is that sure.
-  ChainState frameOf(double confidence) const {
-    ChainState state;
-    state.confidence = confidence;
-    state.parts.resize(parts_);
-    for (PartState& part : state.parts) part.confidence = confidence;
-    return state;
+  /// Of a frame in which every part is that sure.
+  std::vector<PartState> frameOf(double confidence) const {
+    std::vector<PartState> parts(parts_);
+    for (PartState& part : parts) part.confidence = confidence;
+    return parts;
   }
+
+  /// A frame in which every part is that sure, and the object looks as much as learned.
+  void observe(double confidence) { expectations_.observe(frameOf(confidence), confidence); }
 
   ChainModel model_;
   ChainLayout layout_;
@@ -52,30 +53,31 @@ TEST_F(PartExpectationsTest, confidenceSinksFromOneToNoughtWithTheCost) {
 }
 
 TEST_F(PartExpectationsTest, anOutlierHasItsShareOfTheUsualConfidence) {
-  for (int frame = 0; frame < 400; ++frame) expectations_.observe(frameOf(0.6));
+  for (int frame = 0; frame < 400; ++frame) observe(0.6);
   for (size_t part = 0; part < parts_; ++part) {
-    EXPECT_NEAR(0.3, expectations_.confidence(part, expectations_.outlierCost(part, 0.5)), 1e-6);
+    EXPECT_NEAR(0.7 * expectations_.outlierCost(part, 0.0), expectations_.outlierCost(part, 0.5),
+                1e-6);
   }
 }
 
 TEST_F(PartExpectationsTest, partsAreSoonUsedToTheirNewLookAndTheObjectStaysInDoubt) {
-  expectations_.observe(frameOf(0.9));
-  EXPECT_EQ(0.9, expectations_.usualConfidence());
-  for (int frame = 0; frame < 60; ++frame) expectations_.observe(frameOf(0.3));
-  EXPECT_LT(expectations_.confidence(0, expectations_.outlierCost(0, 1.0)), 0.4);
-  EXPECT_GT(expectations_.usualConfidence(), 0.75);
-  for (int frame = 0; frame < 60; ++frame) expectations_.observe(frameOf(0.9));
-  EXPECT_NEAR(0.9, expectations_.usualConfidence(), 1e-3);
+  observe(0.9);
+  EXPECT_EQ(0.9, expectations_.usualLikeness());
+  for (int frame = 0; frame < 60; ++frame) observe(0.3);
+  EXPECT_GT(expectations_.outlierCost(0, 1.0), 0.6 * expectations_.outlierCost(0, 0.0));
+  EXPECT_GT(expectations_.usualLikeness(), 0.75);
+  for (int frame = 0; frame < 60; ++frame) observe(0.9);
+  EXPECT_NEAR(0.9, expectations_.usualLikeness(), 1e-3);
 }
 
 TEST_F(PartExpectationsTest, hiddenShareGrowsFromNoughtToOne) {
-  ChainState state = frameOf(0.5);
-  for (PartState& part : state.parts) part.visible = true;
+  std::vector<PartState> parts = frameOf(0.5);
+  for (PartState& part : parts) part.visible = true;
   double before = 0.0;
-  EXPECT_EQ(0.0, expectations_.hiddenShare(state.parts));
-  for (PartState& part : state.parts) {
+  EXPECT_EQ(0.0, expectations_.hiddenShare(parts));
+  for (PartState& part : parts) {
     part.visible = false;
-    const double share = expectations_.hiddenShare(state.parts);
+    const double share = expectations_.hiddenShare(parts);
     EXPECT_GT(share, before);
     before = share;
   }
@@ -83,13 +85,37 @@ TEST_F(PartExpectationsTest, hiddenShareGrowsFromNoughtToOne) {
 }
 
 TEST_F(PartExpectationsTest, meanLiesBetweenThePartsAndIsTheirsWhereTheyAgree) {
-  ChainState state = frameOf(0.5);
-  EXPECT_NEAR(0.5, expectations_.meanConfidence(state.parts, 0, parts_), 1e-9);
-  state.parts[1].confidence = 1.0;
-  const double mean = expectations_.meanConfidence(state.parts, 0, 2);
+  std::vector<PartState> parts = frameOf(0.5);
+  EXPECT_NEAR(0.5, expectations_.meanConfidence(parts, 0, parts_), 1e-9);
+  parts[1].confidence = 1.0;
+  const double mean = expectations_.meanConfidence(parts, 0, 2);
   EXPECT_GT(mean, 0.5);
   EXPECT_LT(mean, 1.0);
-  EXPECT_NEAR(1.0, expectations_.meanConfidence(state.parts, 1, 1), 1e-9);
+  EXPECT_NEAR(1.0, expectations_.meanConfidence(parts, 1, 1), 1e-9);
+}
+
+/// What all channels could cost is what an outlier costs of which nothing is usual.
+TEST_F(PartExpectationsTest, likenessSinksFromOneToNoughtWithTheCostsOfAllChannels) {
+  std::vector<double> costs(parts_, 0.0);
+  EXPECT_NEAR(1.0, expectations_.likeness(costs), 1e-9);
+  for (size_t part = 0; part < parts_; ++part) {
+    costs[part] = 0.25 * expectations_.outlierCost(part, 0.0);
+  }
+  EXPECT_NEAR(0.75, expectations_.likeness(costs), 1e-9);
+  costs.assign(parts_, 1000.0);
+  EXPECT_NEAR(0.0, expectations_.likeness(costs), 1e-9);
+}
+
+TEST_F(PartExpectationsTest, edgesCountOnlyWhereTheModelLooksAtThem) {
+  AppearanceModel without = model_.appearance;
+  without.edge_weight = 0.0;
+  const PartExpectations blind(appearance_, without, parts_);
+  double more = 0.0;
+  for (size_t part = 0; part < parts_; ++part) {
+    more += expectations_.outlierCost(part, 0.0) - blind.outlierCost(part, 0.0);
+    EXPECT_EQ(expectations_.confidence(part, 2.0), blind.confidence(part, 2.0));
+  }
+  EXPECT_GT(more, 0.0);
 }
 
 }  // namespace

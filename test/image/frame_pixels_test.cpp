@@ -23,13 +23,14 @@ cv::Rect someRegion(RandomInputs& random) {
           random.integer(1, 40)};
 }
 
-void expectEntries(const cv::Mat1b& all, const cv::Rect& region, const cv::Mat1b& entries) {
+/// Codes outside the image are 0 in every channel.
+void expectCodes(const cv::Mat1b& all, const cv::Rect& region, const cv::Mat1b& entries) {
   const cv::Rect image(cv::Point(), all.size());
   ASSERT_EQ(region.size(), entries.size());
   for (int y = 0; y < region.height; ++y) {
     for (int x = 0; x < region.width; ++x) {
       const cv::Point pixel(region.x + x, region.y + y);
-      const int expected = image.contains(pixel) ? all(pixel) : ColorPalette::kOther;
+      const int expected = image.contains(pixel) ? all(pixel) : 0;
       ASSERT_EQ(expected, entries(y, x)) << "pixel " << pixel << " of " << region;
     }
   }
@@ -46,6 +47,15 @@ void expectGrey(const cv::Mat1b& all, const cv::Rect& region, const cv::Mat1b& g
   }
 }
 
+/// Of the whole image, whose border pixels go on outside it.
+cv::Mat1b edgesOf(const cv::Mat1b& grey) {
+  cv::Mat1b bordered;
+  cv::copyMakeBorder(grey, bordered, 1, 1, 1, 1, cv::BORDER_REPLICATE);
+  cv::Mat1b edges(grey.size());
+  EdgeDirections().compute(bordered, edges);
+  return edges;
+}
+
 /// Regions inside the image, across its border and far outside, some of them known already.
 TEST(FramePixels, equalThoseOfTheWholeImageInAnyOrder) {
   RandomInputs random(1);
@@ -59,9 +69,11 @@ TEST(FramePixels, equalThoseOfTheWholeImageInAnyOrder) {
       const cv::Mat1b entries = brute_force::entriesOf(image, palette);
       cv::Mat1b grey = image;
       if (type == CV_8UC3) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+      const cv::Mat1b edges = edgesOf(grey);
       for (int i = 0; i < 30; ++i) {
         const cv::Rect region = i == 7 ? cv::Rect(-300, 200, 9, 5) : someRegion(random);
-        expectEntries(entries, region, pixels.entries(region));
+        expectCodes(entries, region, pixels.codes(Channel::kColors, region));
+        expectCodes(edges, region, pixels.codes(Channel::kEdges, region));
         expectGrey(grey, region, pixels.grey(region));
       }
     }

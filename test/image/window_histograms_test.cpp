@@ -38,7 +38,8 @@ std::vector<cv::Mat1i> histogramsOf(const cv::Mat& image, const ColorPalette& pa
   std::vector<cv::Mat1i> counts;
   WindowHistogramsWorkspace workspace;
   FramePixels pixels(palette, image);
-  computeWindowHistograms(pixels, lattice, allEntries(palette), counts, workspace);
+  computeWindowHistograms(pixels, Channel::kColors, lattice, allEntries(palette), counts,
+                          workspace);
   for (cv::Mat1i& count : counts) count = count.clone();
   return counts;
 }
@@ -148,7 +149,8 @@ TEST(WindowHistograms, workspaceOfOtherSizesLeavesNoTrace) {
   const auto check = [&](int type, const ColorPalette& palette, const WindowLattice& lattice) {
     const cv::Mat image = random.noise({30, 25}, type);
     FramePixels pixels(palette, image);
-    computeWindowHistograms(pixels, lattice, allEntries(palette), counts, workspace);
+    computeWindowHistograms(pixels, Channel::kColors, lattice, allEntries(palette), counts,
+                            workspace);
     expectEqualsCounting(image, palette, lattice, counts);
   };
   check(CV_8UC3, colors, {{-3, -3}, 2, 5, {14, 12}});
@@ -170,12 +172,13 @@ TEST(WindowHistograms, ofWantedEntriesAreThoseOfAll) {
   for (size_t first = 0; first < all.size(); ++first) {
     std::vector<bool> wanted(all.size(), false);
     for (size_t entry = first; entry < all.size(); entry += 3) wanted[entry] = true;
-    computeWindowHistograms(pixels, lattice, wanted, counts, workspace);
+    computeWindowHistograms(pixels, Channel::kColors, lattice, wanted, counts, workspace);
     for (size_t entry = first; entry < all.size(); entry += 3) {
       EXPECT_EQ(0, cv::countNonZero(all[entry] != counts[entry])) << entry;
     }
   }
-  computeWindowHistograms(pixels, lattice, std::vector<bool>(all.size(), false), counts, workspace);
+  computeWindowHistograms(pixels, Channel::kColors, lattice, std::vector<bool>(all.size(), false),
+                          counts, workspace);
   EXPECT_EQ(all.size(), counts.size());
 }
 

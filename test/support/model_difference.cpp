@@ -39,6 +39,7 @@ class Differences {
     compare("appearance/ring", expected.ring, actual.ring);
     compare("appearance/min_object_share", expected.min_object_share, actual.min_object_share);
     compare("appearance/weight", expected.weight, actual.weight);
+    compare("appearance/edge_weight", expected.edge_weight, actual.edge_weight);
     compare("appearance/haar_weight", expected.haar_weight, actual.haar_weight);
     compare("appearance/outlier_below", expected.outlier_below, actual.outlier_below);
     compare("appearance/outlier_slope", expected.outlier_slope, actual.outlier_slope);

@@ -53,13 +53,14 @@ struct JointModel {
   double max_angle = kFreeJoint;   ///< [rad]; free unless less than a half turn to both sides
 };
 
-/// What the colour channels learn in the first frame (thesis ch. 3.2.1).
+/// What the channels learn in the first frame (thesis ch. 3.2.1).
 struct AppearanceModel {
   int palette_colors = 24;        ///< colours learned from the object and the ring around it
   double ring = 0.5;              ///< width of that ring, fraction of the object's size
   double min_object_share = 0.5;  ///< a colour rarer on the object than this becomes "other"
   double weight = 8.0;            ///< of the colour cost against the springs
-  double haar_weight = 4.0;       ///< of the texture cost against the springs; 0: colour alone
+  double edge_weight = 16.0;      ///< of the cost of edges, in the coarse search; 0: none
+  double haar_weight = 4.0;       ///< of the cost of texture, in the fine search; 0: none
   /// Share of its usual confidence below which a part is taken to show something else.
   double outlier_below = 0.5;
   /// Slope of its cost from there on, of what it is before: how much what covers a part, or looks
@@ -70,13 +71,13 @@ struct AppearanceModel {
 /// Where and when the object is looked for, and when it counts as found.
 struct SearchModel {
   double radius = 0.06;          ///< reach of a part between frames, fraction of the image diagonal
-  double lost_below = 0.15;      ///< confidence under which a tracked object becomes LOST
-  double found_above = 0.25;     ///< confidence over which a LOST object is tracked again
+  double lost_below = 0.1;       ///< confidence under which a tracked object becomes LOST
+  double found_above = 0.2;      ///< confidence over which a LOST object is tracked again
   double occluded_below = 0.25;  ///< confidence under which a part counts as hidden
   /// Cost of a part that moves by `radius` between two frames: keeps what is hidden in place.
   double travel_weight = 0.3;
-  /// Share of the usual confidence below which the object is looked for elsewhere, too, and has to
-  /// have there; 0: never.
+  /// Share of the usual likeness, by all channels, below which the object is looked for elsewhere,
+  /// too, and has to have there; 0: never.
   double doubt_below = 0.7;
 };
 

@@ -19,6 +19,7 @@ namespace chain_tracker {
 
 struct PartAppearance {
   RootHistogram colors;
+  RootHistogram edges;
   WindowTexture texture{};
 };
 
@@ -41,11 +42,15 @@ class ObjectAppearance {
     double side = 0.0;   ///< [px]
   };
 
+  void learnFrame(const cv::Mat& image, FramePixels& pixels);
+  PartAppearance learnUpright(const Window& window, FramePixels& pixels) const;
   PartAppearance learnTurned(const Window& window, double turn) const;
+  int turnedEdge(const cv::Point& pixel, const cv::Point2f& rotation) const;
 
   ColorPalette palette_;
-  cv::Mat1b entries_;  ///< palette entries of the first frame
-  cv::Mat1b grey_;     ///< its brightness
+  cv::Mat1b entries_;                 ///< palette entries of the first frame
+  cv::Mat1b grey_;                    ///< its brightness
+  std::vector<cv::Mat1i> gradients_;  ///< of that: right and down
   std::vector<Window> windows_;
   std::map<std::pair<size_t, int>, PartAppearance> parts_;  ///< by part and whole turn steps
 };

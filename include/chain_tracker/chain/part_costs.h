@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// How badly a part's learned colours match the window around each candidate position
+/// How badly a part's learned histogram matches the window around each candidate position
 /// (appearance term A of thesis ch. 3.2.1).
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace chain_tracker {
 
-/// Square roots of the histogram of a part's window in the first frame, one a palette entry.
+/// Square roots of the histogram of a part's window in the first frame, one a code of the channel.
 using RootHistogram = std::vector<float>;
 
 /// Candidate positions of all parts of a segment: equal windows of one lattice.
@@ -56,14 +56,15 @@ struct PartCostsWorkspace {
 /// costs[k](row, column) = weight * sqrt(1 - BC), BC the Bhattacharyya coefficient of part k's
 /// histogram and that of the window at that state: in [0, weight].
 /// O(pixels of the lattice, or of the parts' lattices if these are fewer, + parts x states x
-/// palette entries of a part).
-void computePartCosts(FramePixels& pixels, const std::vector<RootHistogram>& parts,
+/// codes of a part).
+void computePartCosts(FramePixels& pixels, Channel channel, const std::vector<RootHistogram>& parts,
                       const CandidateGrid& grid, double weight, std::vector<cv::Mat1f>& costs,
                       PartCostsWorkspace& workspace);
 
 /// Histogram of the window of `side` [px], rounded, around `center`: interpolated between the
 /// windows of whole pixels, so that matching finds the very centre again and not the pixel next to
 /// it.
-RootHistogram learnPart(FramePixels& pixels, const cv::Point2d& center, double side);
+RootHistogram learnPart(FramePixels& pixels, Channel channel, const cv::Point2d& center,
+                        double side);
 
 }  // namespace chain_tracker

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// An image as the tracker sees it: palette entries and grey levels. Each is computed where it is
-/// first asked for and kept, as the searches of one frame look at the same pixels again and again.
+/// An image as the tracker sees it: palette entries, directions of edges and grey levels. Each is
+/// computed where it is first asked for and kept, as the searches of one frame look at the same
+/// pixels again and again.
 #pragma once
 
 #include <vector>
@@ -8,8 +9,12 @@
 #include <opencv2/core.hpp>
 
 #include "chain_tracker/image/color_palette.h"
+#include "chain_tracker/image/edge_directions.h"
 
 namespace chain_tracker {
+
+/// What the histograms of windows count.
+enum class Channel { kColors, kEdges };
 
 class FramePixels {
  public:
@@ -30,6 +35,14 @@ class FramePixels {
   /// it reaches outside.
   cv::Mat1b entries(const cv::Rect& region);
 
+  /// Codes of edge_directions.h in such a region, kNoEdge outside the image; along its border, its
+  /// pixels go on. Valid and time as above.
+  cv::Mat1b edges(const cv::Rect& region);
+
+  /// The one or the other, and the number of codes that there are.
+  cv::Mat1b codes(Channel channel, const cv::Rect& region);
+  int codeCount(Channel channel) const;
+
   /// Grey levels of a region that may reach outside the image, where its border pixels go on.
   /// Valid until the next call. Time as above.
   cv::Mat1b grey(const cv::Rect& region);
@@ -43,12 +56,16 @@ class FramePixels {
   };
 
   template <typename Compute>
+  cv::Mat1b zeroOutside(const cv::Rect& region, PartialPlane& plane, const Compute& compute) const;
+  template <typename Compute>
   static void ensure(const cv::Rect& inside, PartialPlane& plane, const Compute& compute);
 
   const ColorPalette& palette_;
   cv::Mat image_;
   PartialPlane entries_;
+  PartialPlane edges_;
   PartialPlane grey_;
+  EdgeDirections edge_directions_;
 };
 
 }  // namespace chain_tracker

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Colour histograms of square windows on a lattice of positions.
+/// Histograms of square windows on a lattice of positions: of colours, or of the directions of
+/// edges.
 #pragma once
 
 #include <cstdint>
@@ -39,13 +40,13 @@ struct WindowHistogramsWorkspace {
   WindowSums sums;
 };
 
-/// counts[entry](row, column): pixels of the window that have that palette entry, for the entries
-/// that are wanted: maps of lattice.size, valid until the workspace is used again. The
-/// other maps mean nothing.
-/// The sums over windows are those of the Haar front end, on the cells of all wanted entries side
-/// by side: one wide plane takes less time than many narrow ones. `wanted` has an element for every
-/// palette entry. O(pixels + wanted entries x cells).
-void computeWindowHistograms(FramePixels& pixels, const WindowLattice& lattice,
+/// counts[code](row, column): pixels of the window that have that code of the channel, for the
+/// codes that are wanted: maps of lattice.size, valid until the workspace is used again. The other
+/// maps mean nothing.
+/// The sums over windows are those of the Haar front end, on the cells of all wanted codes side by
+/// side: one wide plane takes less time than many narrow ones. `wanted` has an element for every
+/// code. O(pixels + wanted codes x cells).
+void computeWindowHistograms(FramePixels& pixels, Channel channel, const WindowLattice& lattice,
                              const std::vector<bool>& wanted, std::vector<cv::Mat1i>& counts,
                              WindowHistogramsWorkspace& workspace);
 

@@ -15,6 +15,8 @@ namespace chain_tracker {
 /// Sums of pixels over cells, at least 0.
 using CellPlane = cv::Mat1i;
 
+class ResizableExecutor;
+
 class WindowSums {
  public:
   WindowSums();
@@ -31,15 +33,13 @@ class WindowSums {
   const cv::Mat1i& compute(const cv::Mat1b& cells, int window_cells, int max_cell);
 
  private:
-  struct Engine;
+  ResizableExecutor& executorFor(int window_cells, int max_byte);
 
-  Engine& engineFor(int window_cells, int max_byte, const cv::Size& size);
-  void run(const cv::Mat1b& cells, int window_cells, int max_byte, cv::Mat1i& sums);
-
-  std::map<std::pair<int, int>, std::unique_ptr<Engine>> engines_;  ///< by cells and largest byte
-  cv::Mat1b bytes_;                                                 ///< of one place of the cells
-  cv::Mat1i sums_;
-  cv::Mat1i higher_sums_;  ///< of another place than the lowest
+  /// By cells and largest byte.
+  std::map<std::pair<int, int>, std::unique_ptr<ResizableExecutor>> executors_;
+  cv::Mat1b bytes_;  ///< of one place of the cells
+  std::vector<cv::Mat1i> sums_;
+  std::vector<cv::Mat1i> higher_sums_;  ///< of another place than the lowest
 };
 
 }  // namespace chain_tracker

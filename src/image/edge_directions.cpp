@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain_tracker/image/edge_directions.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "chain_tracker/image/multiversion.h"
+#include "resizable_executor.h"
+
+namespace chain_tracker {
+namespace {
+
+/// Pixels that a gradient sums over.
+constexpr int kSummed = 3;
+
+haar::FeatureEnsemble gradientFeatures() {
+  return {"gradient",
+          {{"right", {{1, -1, 1, kSummed, 1}, {-1, -1, 1, kSummed, -1}}},
+           {"down", {{-1, 1, kSummed, 1, 1}, {-1, -1, kSummed, 1, -1}}}}};
+}
+
+/// Directions lie 45 degrees apart; the tangent of half of that is 0.414, nearly 2 / 5.
+template <typename Number>
+inline int codeOf(Number right, Number down) {
+  const Number across = std::abs(right);
+  const Number along = std::abs(down);
+  const int horizontal = right > 0 ? 1 : 5;
+  const int vertical = down > 0 ? 3 : 7;
+  const int diagonal = down > 0 ? (right > 0 ? 2 : 4) : (right > 0 ? 8 : 6);
+  const int upright = 5 * across < 2 * along ? vertical : diagonal;
+  const int code = 5 * along < 2 * across ? horizontal : upright;
+  return across + along < kSummed * kLeastContrast ? kNoEdge : code;
+}
+
+CHAIN_TRACKER_MULTIVERSION
+void codeRow(const int* __restrict right, const int* __restrict down, uchar* __restrict codes,
+             int columns) {
+  for (int x = 0; x < columns; ++x) codes[x] = static_cast<uchar>(codeOf(right[x], down[x]));
+}
+
+}  // namespace
+
+int edgeCode(float right, float down) { return codeOf(right, down); }
+
+EdgeDirections::EdgeDirections()
+    : executor_(std::make_unique<ResizableExecutor>(gradientFeatures())) {}
+EdgeDirections::EdgeDirections(EdgeDirections&&) noexcept = default;
+EdgeDirections& EdgeDirections::operator=(EdgeDirections&&) noexcept = default;
+EdgeDirections::~EdgeDirections() = default;
+
+cv::Rect EdgeDirections::neededFor(const cv::Rect& region) {
+  return region + cv::Size(2, 2) - cv::Point(1, 1);
+}
+
+std::vector<cv::Mat1i> EdgeDirections::gradients(const cv::Mat1b& grey) {
+  executor_->run(grey, responses_);
+  const cv::Rect inner(1, 1, grey.cols - 2, grey.rows - 2);
+  return {responses_[0](inner), responses_[1](inner)};
+}
+
+void EdgeDirections::compute(const cv::Mat1b& grey, cv::Mat1b& codes) {
+  const std::vector<cv::Mat1i> gradient = gradients(grey);
+  for (int row = 0; row < codes.rows; ++row) {
+    codeRow(gradient[0][row], gradient[1][row], codes[row], codes.cols);
+  }
+}
+
+}  // namespace chain_tracker
