@@ -18,7 +18,7 @@ namespace chain_tracker::haar {
 namespace {
 
 /// Loops are measured in turns, so that a burst of other programs' work spoils no loop's fastest.
-constexpr int kRounds = 8;
+constexpr int kRounds = 12;
 constexpr int kVector = 32;
 
 const cv::Size& required(const cv::Size& size) {

@@ -95,14 +95,16 @@ class LoopBenchmark::Memory {
   explicit Memory(const cv::Size& size)
       : columns(roundedUp(size.width, kVector) + 2 * kBorder),
         buffer(static_cast<size_t>(columns) * kBatchRows),
-        source_(static_cast<size_t>(columns) *
+        source_(static_cast<size_t>(columns + 1) *
                 static_cast<size_t>(size.height + 2 * kBorder + kRingRows)) {}
 
   /// The source as the loop sees it; delays beyond the borders are cut.
   RowStore sourceOf(const MeasuredLoop& loop) const {
     const std::int32_t* first = source_.data() + kBorder;
     if (loop.source == Place::kLineBuffer) return {first, kRingRows - 1, columns};
-    return {first + static_cast<std::ptrdiff_t>(kBorder) * columns, -1, columns};
+    // Rows of integral images are one element longer than those of images: hardly ever aligned.
+    const std::ptrdiff_t stride = columns + 1;
+    return {first + kBorder * stride, -1, stride};
   }
 
   int columns;

@@ -38,7 +38,7 @@ class CostModel {
   CostModel& operator=(CostModel&&) noexcept;
 
   /// BufferedExecutor::run() with default options, one thread and one plane, responses stored.
-  /// Loops that have not been measured are: the first plan of its kind takes up to ten seconds.
+  /// Loops that have not been measured are: the first plan of its kind takes some ten seconds.
   double planSeconds(const ConvolutionPlan& plan);
   /// CornerReads::run() for the plan's ensemble.
   double classicSeconds(const ConvolutionPlan& plan);
