@@ -34,8 +34,10 @@ haar::FeatureEnsemble loadAny(const std::string& name) {
   return haar::shippedEnsemble(name);
 }
 
-void printPrediction(const haar::ConvolutionPlan& plan) {
-  haar::CostModel model(cv::Size(640, 480));
+void printPrediction(const haar::ConvolutionPlan& plan, bool calibrate) {
+  haar::CostModelOptions options;
+  options.measure_anew = calibrate;
+  haar::CostModel model(cv::Size(640, 480), options);
   const double classic = model.classicSeconds(plan);
   const double parsed = model.planSeconds(plan);
   std::cout << "predicted for 640 x 480 on this machine: classic " << 1e3 * classic
@@ -63,12 +65,16 @@ int main(int argc, char** argv) {
   app.add_option("--rounds", options.search_rounds, "Disturbances of the parser's search")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  bool calibrate = false;
+  app.add_flag("--calibrate", calibrate,
+               "Measures this machine anew for the prediction, instead of reading what is kept in "
+               "$XDG_CACHE_HOME/chain_tracker/haar_timings.yaml (~/.cache/...)");
   try {
     app.parse(argc, argv);
     if (file.empty() && ensemble.empty()) throw std::invalid_argument("no ensemble is given");
     const haar::ConvolutionPlan plan(loadAny(file.empty() ? ensemble : file), options);
     std::cout << plan.describe();
-    printPrediction(plan);
+    printPrediction(plan, calibrate);
     if (!dot.empty()) writeDot(plan, dot);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
