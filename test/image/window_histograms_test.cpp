@@ -21,12 +21,12 @@ std::string textOf(const cv::Mat& image, const WindowLattice& lattice) {
 }
 
 /// A palette of several entries, the same for every test image of its type.
-ColorPalette somePalette(int type) {
+ColorPalette somePalette(int type, int colors = 8) {
   RandomInputs random(99);
   const cv::Mat image = random.noise({40, 30}, type);
   cv::Mat1b object(image.size(), uchar(0));
   object(cv::Rect(10, 5, 20, 20)).setTo(255);
-  return {image, object, cv::Mat1b(~object), {8, 0.4}};
+  return {image, object, cv::Mat1b(~object), {colors, 0.4}};
 }
 
 std::vector<bool> allEntries(const ColorPalette& palette) {
@@ -90,6 +90,18 @@ TEST(WindowHistograms, equalCountingPixels) {
         expectEqualsCounting(image, palette, lattice, histogramsOf(image, palette, lattice));
       }
     }
+  }
+}
+
+/// More than are counted at once, and cells that just fit and do not fit in a byte.
+TEST(WindowHistograms, equalCountingPixelsOfManyColors) {
+  RandomInputs random(5);
+  const ColorPalette palette = somePalette(CV_8UC3, 150);
+  ASSERT_GT(palette.size(), 64);
+  const cv::Mat image = random.noise({90, 70}, CV_8UC3);
+  for (int step : {5, 6, 15, 16}) {
+    const WindowLattice lattice{{-7, 3}, step, 2, {4, 3}};
+    expectEqualsCounting(image, palette, lattice, histogramsOf(image, palette, lattice));
   }
 }
 
