@@ -71,7 +71,7 @@ struct AppearanceModel {
 /// Where and when the object is looked for, and when it counts as found.
 struct SearchModel {
   double radius = 0.06;          ///< reach of a part between frames, fraction of the image diagonal
-  double lost_below = 0.1;       ///< confidence under which a tracked object becomes LOST
+  double lost_below = 0.07;      ///< confidence under which a tracked object becomes LOST
   double found_above = 0.2;      ///< confidence over which a LOST object is tracked again
   double occluded_below = 0.25;  ///< confidence under which a part counts as hidden
   /// Cost of a part that moves by `radius` between two frames: keeps what is hidden in place.
