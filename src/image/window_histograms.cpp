@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
 
 #include "reused_plane.h"
@@ -60,12 +61,12 @@ void countCells(const cv::Mat1b& codes, int step, const std::vector<size_t>& wan
     (i - first < kHalf ? one.first : one.second)[(i - first) % kHalf] = 1;
   }
   for (int row = 0; row < plane.rows; ++row) {
-    uchar* const cells = plane[row] + static_cast<int>(first) * columns;
+    uchar* const cells = plane[row] + static_cast<std::ptrdiff_t>(first) * columns;
     for (int column = 0; column < columns; ++column) {
       HalfCounters first_counts{};
       HalfCounters second_counts{};
       for (int y = row * step; y < (row + 1) * step; ++y) {
-        const uchar* code = codes[y] + column * step;
+        const uchar* code = codes[y] + static_cast<std::ptrdiff_t>(column) * step;
         for (int i = 0; i < step; ++i) {
           const Counters& one = one_of[code[i]];
           first_counts += one.first;
