@@ -29,7 +29,7 @@ ObjectAppearance::ObjectAppearance(const cv::Mat& image, const ChainLayout& layo
                                    const AppearanceModel& model)
     : palette_(learnPalette(image, layout.silhouette, model)) {
   FramePixels pixels(palette_, image);
-  learnFrame(image, pixels);
+  learnFrame(image.size(), pixels);
   for (const SegmentLayout& segment : layout.segments) {
     for (const PartLayout& part : segment.parts) {
       windows_.push_back({segment.image_from_segment.apply(part.position), part.side});
@@ -38,8 +38,8 @@ ObjectAppearance::ObjectAppearance(const cv::Mat& image, const ChainLayout& layo
   }
 }
 
-void ObjectAppearance::learnFrame(const cv::Mat& image, FramePixels& pixels) {
-  const cv::Rect all(cv::Point(), image.size());
+void ObjectAppearance::learnFrame(const cv::Size& size, FramePixels& pixels) {
+  const cv::Rect all(cv::Point(), size);
   entries_ = pixels.entries(all).clone();
   grey_ = pixels.grey(all).clone();
   EdgeDirections directions;

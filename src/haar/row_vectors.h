@@ -102,9 +102,7 @@ CHAIN_TRACKER_INLINE Vector loadAs(const Element* from) {
 /// The values of 16-bit vectors, signed or unsigned as `Element` is, in the order in which
 /// storeWide() takes them.
 template <typename Element>
-CHAIN_TRACKER_INLINE WideVector wide(Register values) {
-  const __m256i low = _mm512_castsi512_si256(values);
-  const __m256i high = _mm512_extracti64x4_epi64(values, 1);
+CHAIN_TRACKER_INLINE WideVector wide(__m256i low, __m256i high) {
   if constexpr (std::is_signed_v<Element>) {
     return {{reinterpret_cast<HalfVector>(_mm512_cvtepi16_epi32(low)),
              reinterpret_cast<HalfVector>(_mm512_cvtepi16_epi32(high))}};
@@ -114,18 +112,15 @@ CHAIN_TRACKER_INLINE WideVector wide(Register values) {
   }
 }
 
+template <typename Element>
+CHAIN_TRACKER_INLINE WideVector wide(Register values) {
+  return wide<Element>(_mm512_castsi512_si256(values), _mm512_extracti64x4_epi64(values, 1));
+}
+
 /// The same straight from memory, which spares taking a vector apart.
 template <typename Element>
 CHAIN_TRACKER_INLINE WideVector loadWide(const Element* from) {
-  const auto low = loadAs<__m256i>(from);
-  const auto high = loadAs<__m256i>(from + kHalfLanes);
-  if constexpr (std::is_signed_v<Element>) {
-    return {{reinterpret_cast<HalfVector>(_mm512_cvtepi16_epi32(low)),
-             reinterpret_cast<HalfVector>(_mm512_cvtepi16_epi32(high))}};
-  } else {
-    return {{reinterpret_cast<HalfVector>(_mm512_cvtepu16_epi32(low)),
-             reinterpret_cast<HalfVector>(_mm512_cvtepu16_epi32(high))}};
-  }
+  return wide<Element>(loadAs<__m256i>(from), loadAs<__m256i>(from + kHalfLanes));
 }
 
 template <Write kWrite>

@@ -42,7 +42,7 @@ class ObjectAppearance {
     double side = 0.0;   ///< [px]
   };
 
-  void learnFrame(const cv::Mat& image, FramePixels& pixels);
+  void learnFrame(const cv::Size& size, FramePixels& pixels);
   PartAppearance learnUpright(const Window& window, FramePixels& pixels) const;
   PartAppearance learnTurned(const Window& window, double turn) const;
   int turnedEdge(const cv::Point& pixel, const cv::Point2f& rotation) const;
