@@ -44,6 +44,7 @@ void checkSegment(const SegmentModel& segment, const std::string& prefix, FaultL
   faults.requireRange(prefix + "window", segment.window, 0.2, 10.0);
   faults.requireRange(prefix + "stretch_sigma", segment.stretch_sigma, 0.005, 1.0);
   faults.requireRange(prefix + "bend_sigma", segment.bend_sigma, 0.005, 3.0);
+  faults.requireRange(prefix + "shape_memory", segment.shape_memory, 0.0, 1.0);
   faults.requireRange(prefix + "orientation_hypotheses", segment.orientation_hypotheses, 1, 63);
   faults.requireOdd(prefix + "orientation_hypotheses", segment.orientation_hypotheses);
   faults.requireRange(prefix + "orientation_step", segment.orientation_step, 0.005, 1.0);

@@ -129,6 +129,7 @@ void readSegment(const Reader& reader, SegmentModel& segment) {
                   {"window", into(segment.window)},
                   {"stretch_sigma", into(segment.stretch_sigma)},
                   {"bend_sigma", into(segment.bend_sigma)},
+                  {"shape_memory", into(segment.shape_memory)},
                   {"orientation_hypotheses", into(segment.orientation_hypotheses)},
                   {"orientation_step", into(segment.orientation_step)},
                   {"orientation_sigma", into(segment.orientation_sigma)},

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "chain_tracker/chain/similarity_fit.h"
+#include "rest_shape.h"
 #include "robust_costs.h"
 #include "stopwatch.h"
 
@@ -33,8 +34,20 @@ constexpr double kCellVariance = 0.25;
 constexpr int kPoseStates = 8;
 /// Of the poses to the parts, and of the parts to the poses.
 constexpr int kFits = 2;
+/// Of a part to where the fit has it, of its window's side: one farther off counts less than a
+/// quarter.
+constexpr double kTolerance = 0.3;
 /// Keeps the fit defined when no part is seen.
 constexpr double kSmallestWeight = 1e-3;
+
+/// Of each edge from the one before in the first frame, as far as the shape is remembered.
+std::vector<double> rememberedTurns(const std::vector<EdgeLayout>& edges, double shape_memory) {
+  std::vector<double> turns(edges.size(), 0.0);
+  for (size_t k = 1; k < edges.size(); ++k) {
+    turns[k] = shape_memory * wrapAngle(edges[k].direction - edges[k - 1].direction);
+  }
+  return turns;
+}
 
 std::vector<SegmentPose> posesOf(const ChainState& state) {
   std::vector<SegmentPose> poses;
@@ -141,7 +154,9 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       expectations_(appearance_, model.appearance, initial.parts.size()),
       pixels_(appearance_.palette()) {
   for (const PartState& part : initial.parts) initial_orientations_.push_back(part.orientation);
-  for (const SegmentLayout& segment : layout_) {
+  for (size_t m = 0; m < segments(); ++m) {
+    const SegmentLayout& segment = layout_[m];
+    remembered_turns_.push_back(rememberedTurns(segment.edges, model_.segments[m].shape_memory));
     const bool is_grid = segment.layout == Layout::kElongated || segment.layout == Layout::kPlanar;
     variance_shares_.insert(variance_shares_.end(), segment.parts.size(),
                             is_grid ? kCellVariance : 1.0);
@@ -205,17 +220,35 @@ cv::Point2d ChainSearch::jointPosition(const ChainState& state, size_t m) const 
                 state.segments[m + 1].image_from_segment.apply(*layout_[m + 1].entry));
 }
 
-/// What bends anywhere has no shape of its own: its springs rest where they are sought, so
-/// that it may bend as far as it likes, but not at once.
+/// Of the segment's joints and parts; a joint is seen where the part beside it is.
+std::vector<bool> ChainSearch::nodesHidden(const ChainState& state, size_t m) const {
+  const SegmentLayout& segment = layout_[m];
+  std::vector<bool> hidden;
+  for (size_t k = 0; k < segment.parts.size(); ++k) {
+    hidden.push_back(!state.parts[static_cast<size_t>(state.segments[m].first_part) + k].visible);
+  }
+  if (segment.entry) hidden.insert(hidden.begin(), hidden.front());
+  if (segment.exit) hidden.push_back(hidden.back());
+  return hidden;
+}
+
+/// What bends anywhere rests where it is sought, so that it may bend as far as it likes, but not at
+/// once.
 void ChainSearch::relaxSprings(const ChainState& state) {
   for (size_t m = 0; m < segments(); ++m) {
     if (layout_[m].layout != Layout::kDeformable) continue;
     const std::vector<cv::Point2d> nodes = nodePositions(state, m);
+    const std::vector<bool> hidden = nodesHidden(state, m);
     const double orientation = state.segments[m].image_from_segment.angle;
     std::vector<EdgeLayout>& edges = layout_[m].edges;
+    std::vector<double> directions;
+    std::vector<bool> edges_hidden;
     for (size_t k = 0; k < edges.size(); ++k) {
-      edges[k].direction = wrapAngle(directionOf(nodes[k + 1] - nodes[k]) - orientation);
+      directions.push_back(wrapAngle(directionOf(nodes[k + 1] - nodes[k]) - orientation));
+      edges_hidden.push_back(hidden[k] || hidden[k + 1]);
     }
+    directions = restDirections(directions, edges_hidden, remembered_turns_[m]);
+    for (size_t k = 0; k < edges.size(); ++k) edges[k].direction = directions[k];
   }
 }
 
@@ -393,9 +426,9 @@ void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,
   for (size_t m = 0; m < segments(); ++m) fitSegment(m, poses[m], found);
 }
 
-/// Least squares over the parts, within the resolution of the poses searched, half a step in each
-/// fit: beyond it, the energy knows better than the parts, which lean inwards wherever the object
-/// is uniform.
+/// Least squares over the parts but those that have slid off to what looks like them, within the
+/// resolution of the poses searched, half a step in each fit: beyond it, the energy knows better
+/// than the parts, which lean inwards wherever the object is uniform.
 void ChainSearch::fitSegment(size_t m, const SegmentPose& searched, ChainState& state) const {
   SegmentState& segment = state.segments[m];
   std::vector<cv::Point2d> reference;
@@ -407,8 +440,12 @@ void ChainSearch::fitSegment(size_t m, const SegmentPose& searched, ChainState& 
     found.push_back(part.position);
     weights.push_back(part.confidence + kSmallestWeight);
   }
+  const bool is_deformable = layout_[m].layout == Layout::kDeformable;
+  if (!is_deformable) {
+    weights = robustWeights(reference, found, weights, kTolerance * sideOf(m, searched.scale));
+  }
   Similarity fit = fitSimilarity(reference, found, weights);
-  if (layout_[m].layout == Layout::kDeformable) {
+  if (is_deformable) {
     fit.scale = lengthRatio(reference, found, weights);
   }
   const PoseGrid poses = finePoses(model_.segments[m], searched);

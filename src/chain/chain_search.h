@@ -73,6 +73,7 @@ class ChainSearch {
   double smallestSide(const std::vector<SegmentPose>& poses) const;
   cv::Point2d jointPosition(const ChainState& state, size_t m) const;
   std::vector<cv::Point2d> nodePositions(const ChainState& state, size_t m) const;
+  std::vector<bool> nodesHidden(const ChainState& state, size_t m) const;
   void relaxSprings(const ChainState& state);
 
   Candidates coarseCandidates();
@@ -98,8 +99,9 @@ class ChainSearch {
   std::vector<SegmentLayout> layout_;
   ObjectAppearance appearance_;
   PartExpectations expectations_;
-  std::vector<double> initial_orientations_;  // of the parts
-  std::vector<double> variance_shares_;       // of the parts, in what the chain alone would leave
+  std::vector<double> initial_orientations_;           // of the parts
+  std::vector<std::vector<double>> remembered_turns_;  // of each segment's edges
+  std::vector<double> variance_shares_;  // of the parts, in what the chain alone would leave
   // Of the search that goes on.
   ChainState sought_;
   std::vector<SegmentPose> previous_;

@@ -131,9 +131,9 @@ class ChainTracker::Implementation {
     return found.likeness < model_.search.doubt_below * search_.expectations().usualLikeness();
   }
 
-  /// A chain elsewhere is believed in if it is clearly better and beyond doubt.
+  /// A chain elsewhere is believed in if it is clearly better and would do to end a loss.
   void preferBetter(FoundChain other, FoundChain& found) const {
-    const bool is_sure = other.state.confidence >= model_.search.found_above && !isDoubtful(other);
+    const bool is_sure = other.state.confidence >= model_.search.found_above;
     if (is_sure && other.likeness > found.likeness + kClearlyBetter) found = std::move(other);
   }
 
@@ -148,7 +148,16 @@ class ChainTracker::Implementation {
   FoundChain look(int failures) {
     ChainState sought = trusted_;
     turnAboutMiddle(soughtTurn(model_.segments.front(), failures), sought);
-    return find(sought, {searchRadius(failures), 0.0});
+    FoundChain found = find(sought, {searchRadius(failures), 0.0});
+    if (found.state.confidence >= model_.search.found_above) preferBetter(reversed(found), found);
+    return found;
+  }
+
+  /// What is found of an object whose two ends look alike may be the wrong way round.
+  FoundChain reversed(const FoundChain& found) {
+    ChainState sought = found.state;
+    turnAboutMiddle(CV_PI, sought);
+    return find(sought, {searchRadius(0), 0.0});
   }
 
   /// What was found becomes the state if it is good enough; otherwise the object is LOST and stays

@@ -8,6 +8,8 @@ namespace {
 
 /// Points within this distance of their mean coincide but for rounding [px].
 constexpr double kCoincident = 1e-9;
+/// Of reweighting.
+constexpr int kRounds = 3;
 
 cv::Point2d weightedMean(const std::vector<cv::Point2d>& points,
                          const std::vector<double>& weights) {
@@ -45,6 +47,21 @@ Similarity fitSimilarity(const std::vector<cv::Point2d>& from, const std::vector
   }
   fit.translation = to_mean - Similarity{fit.angle, fit.scale, {}}.apply(from_mean);
   return fit;
+}
+
+std::vector<double> robustWeights(const std::vector<cv::Point2d>& from,
+                                  const std::vector<cv::Point2d>& to,
+                                  const std::vector<double>& weights, double tolerance) {
+  std::vector<double> robust = weights;
+  for (int round = 0; round < kRounds; ++round) {
+    const Similarity fit = fitSimilarity(from, to, robust);
+    for (size_t k = 0; k < from.size(); ++k) {
+      const double error = cv::norm(to[k] - fit.apply(from[k])) / tolerance;
+      const double share = 1.0 / (1.0 + error * error);
+      robust[k] = weights[k] * share * share;
+    }
+  }
+  return robust;
 }
 
 cv::Point2d fitTranslation(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2d>& to,

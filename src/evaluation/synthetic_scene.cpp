@@ -13,13 +13,13 @@ const std::vector<SceneRecipe>& recipes() {
   static const std::vector<SceneRecipe> all{
       {"bottle", "bottle", paintWall, makeBottle},
       {"box", "box", paintDesk, makeBox},
-      {"robot_arm", "auto", paintWorkshop, makeRobotArm},
-      {"finger_pair", "auto", paintBookcase, makeFingerPair},
+      {"robot_arm", "robot_arm", paintWorkshop, makeRobotArm},
+      {"finger_pair", "finger_pair", paintBookcase, makeFingerPair},
       {"cable", "cable", paintDesk, makeCable},
-      {"suture", "cable", paintTissue, makeSuture},
-      {"guitar_string", "cable", paintDimRoom, makeGuitarString},
-      {"lips", "auto", paintDimRoom, makeLips},
-      {"plastic_bag", "box", paintStreet, makePlasticBag},
+      {"suture", "suture", paintTissue, makeSuture},
+      {"guitar_string", "guitar_string", paintDimRoom, makeGuitarString},
+      {"lips", "lips", paintDimRoom, makeLips},
+      {"plastic_bag", "plastic_bag", paintStreet, makePlasticBag},
   };
   return all;
 }

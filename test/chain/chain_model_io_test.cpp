@@ -45,6 +45,7 @@ segments:
     window: 1.5
     stretch_sigma: 0.06
     bend_sigma: 0.25
+    shape_memory: 0.75
     orientation_hypotheses: 7
     orientation_step: 0.125
     orientation_sigma: 0.2
@@ -86,6 +87,7 @@ ChainModel everyKeyModel() {
   segment.window = 1.5;
   segment.stretch_sigma = 0.06;
   segment.bend_sigma = 0.25;
+  segment.shape_memory = 0.75;
   segment.orientation_hypotheses = 7;
   segment.orientation_step = 0.125;
   segment.orientation_sigma = 0.2;
@@ -122,7 +124,7 @@ TEST(ParseChainModel, noKeyIsUntested) {
       ++keys;
     }
   }
-  EXPECT_EQ(37U, keys);
+  EXPECT_EQ(38U, keys);
 }
 
 TEST(ParseChainModel, keysLeftOutKeepTheirDefaults) {

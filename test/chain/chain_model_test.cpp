@@ -61,6 +61,7 @@ std::vector<Limits> allLimits() {
       segmentLimits("window", &SegmentModel::window, 0.2, 10.0),
       segmentLimits("stretch_sigma", &SegmentModel::stretch_sigma, 0.005, 1.0),
       segmentLimits("bend_sigma", &SegmentModel::bend_sigma, 0.005, 3.0),
+      segmentLimits("shape_memory", &SegmentModel::shape_memory, 0.0, 1.0),
       segmentLimits("orientation_hypotheses", &SegmentModel::orientation_hypotheses, 1, 63),
       segmentLimits("orientation_step", &SegmentModel::orientation_step, 0.005, 1.0),
       segmentLimits("orientation_sigma", &SegmentModel::orientation_sigma, 0.005, 10.0),

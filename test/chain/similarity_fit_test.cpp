@@ -166,6 +166,41 @@ TEST(FitSimilarity, onePointOnlyMoves) {
   expectEqual({0.0, 1.0, {7.0, -3.0}}, fitSimilarity({{1, 2}}, {{8, -1}}, {0.5}), 1e-12);
 }
 
+TEST(RobustWeights, areTheGivenOnesWhereEverythingFits) {
+  RandomInputs random(10);
+  const Correspondences points = movedPoints(random, someTransform(random), 0.0);
+  const std::vector<double> robust = robustWeights(points.from, points.to, points.weights, 5.0);
+  for (size_t k = 0; k < robust.size(); ++k) EXPECT_NEAR(points.weights[k], robust[k], 1e-9);
+}
+
+/// A quarter of the points have slid off together, as parts onto a look-alike do.
+TEST(RobustWeights, letTheFitHeedTheBulkOfThePoints) {
+  RandomInputs random(11);
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    SCOPED_TRACE("repeat " + std::to_string(repeat));
+    const Similarity truth{random.real(-CV_PI, CV_PI), random.real(0.8, 1.25), {}};
+    Correspondences points = movedPoints(random, truth, 0.5);
+    points.weights.assign(points.from.size(), 1.0);
+    for (size_t k = 0; k < 3; ++k) points.to[k] += cv::Point2d(30.0, 0.0);
+    const double before = cv::norm(points.fit().translation);
+    points.weights = robustWeights(points.from, points.to, points.weights, 8.0);
+    EXPECT_LT(cv::norm(points.fit().translation), 0.5 * before);
+    for (size_t k = 0; k < 3; ++k) EXPECT_LT(points.weights[k], 0.25);
+  }
+}
+
+TEST(RobustWeights, followFromTheErrorsOfTheirOwnFit) {
+  RandomInputs random(12);
+  Correspondences points = movedPoints(random, someTransform(random), 3.0);
+  const std::vector<double> given = points.weights;
+  points.weights = robustWeights(points.from, points.to, given, 6.0);
+  const Similarity fit = points.fit();
+  for (size_t k = 0; k < given.size(); ++k) {
+    const double error = cv::norm(points.to[k] - fit.apply(points.from[k])) / 6.0;
+    EXPECT_NEAR(given[k] / std::pow(1.0 + error * error, 2.0), points.weights[k], 0.02 * given[k]);
+  }
+}
+
 TEST(FitTranslation, belongsToTheFit) {
   RandomInputs random(8);
   const Correspondences points = movedPoints(random, someTransform(random), 15.0);

@@ -25,6 +25,7 @@ class Differences {
     compare(prefix + "window", expected.window, actual.window);
     compare(prefix + "stretch_sigma", expected.stretch_sigma, actual.stretch_sigma);
     compare(prefix + "bend_sigma", expected.bend_sigma, actual.bend_sigma);
+    compare(prefix + "shape_memory", expected.shape_memory, actual.shape_memory);
     compare(prefix + "orientation_hypotheses", expected.orientation_hypotheses,
             actual.orientation_hypotheses);
     compare(prefix + "orientation_step", expected.orientation_step, actual.orientation_step);

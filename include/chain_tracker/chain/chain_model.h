@@ -38,6 +38,9 @@ struct SegmentModel {
   /// Standard deviation of an edge's angular displacement [rad]: from the shape laid out; of a
   /// deformable segment, which keeps no shape, from that of the frame before.
   double bend_sigma = 0.1;
+  /// How far a deformable segment goes back to the bends of the first frame where it is hidden: 0
+  /// straightens, 1 takes them up.
+  double shape_memory = 0.0;
   int orientation_hypotheses = 5;  ///< odd; orientations tried around the previous one
   double orientation_step = 0.1;   ///< between neighbouring orientation hypotheses [rad]
   double orientation_sigma = 0.1;  ///< of the turn between two frames [rad]
