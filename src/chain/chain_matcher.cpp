@@ -38,15 +38,16 @@ EdgeStencil sampleSpring(const EdgeLayout& edge, const SegmentPose& pose, int st
   return sampleEdge(onLattice(potential, step), step, shift);
 }
 
-bool areAlike(const EdgeLayout& a, const EdgeLayout& b) {
+/// Whether a spring would be the other one if it were turned by `turn` [rad].
+bool areAlike(const EdgeLayout& a, const EdgeLayout& b, double turn) {
   return std::abs(a.length - b.length) < 1e-6 &&
-         std::abs(wrapAngle(a.direction - b.direction)) < 1e-6 &&
+         std::abs(wrapAngle(a.direction + turn - b.direction)) < 1e-6 &&
          a.stretch_sigma == b.stretch_sigma && a.bend_sigma == b.bend_sigma;
 }
 
-/// Samples the springs of a segment under a pose. A grid of cells has only three different ones,
-/// and sampling one costs more than its message; between lattices that are as many steps apart,
-/// even the stencils are the same.
+/// Samples the springs of a segment under a pose. A grid of cells has only three different ones, of
+/// which two point against each other, and sampling one costs more than its message; between
+/// lattices that are as many steps apart, even the stencils are the same.
 class EdgeSampler {
  public:
   EdgeSampler(const SegmentLayout& segment, const SegmentCandidates& candidates,
@@ -68,14 +69,22 @@ class EdgeSampler {
     std::vector<std::pair<cv::Point, size_t>> kinds;  // by the steps between the lattices
   };
 
-  Spring& springOf(size_t edge, const cv::Point2d& rest) {
+  /// The spring sampled that is alike when turned, or null.
+  Spring* sampled(size_t edge, const cv::Point2d& rest, double turn) {
     for (Spring& spring : springs_) {
-      if (spring.rest == rest && areAlike(segment_.edges[spring.edge], segment_.edges[edge])) {
-        return spring;
-      }
+      const EdgeLayout& layout = segment_.edges[spring.edge];
+      if (spring.rest == rest && areAlike(layout, segment_.edges[edge], turn)) return &spring;
     }
-    const EdgeLayout& layout = segment_.edges[edge];
-    springs_.push_back({edge, rest, sampleSpring(layout, pose_, candidates_.step, rest), {}});
+    return nullptr;
+  }
+
+  Spring& springOf(size_t edge, const cv::Point2d& rest) {
+    if (Spring* const same = sampled(edge, rest, 0.0)) return *same;
+    const Spring* const opposite = sampled(edge, -rest, CV_PI);
+    EdgeStencil stencil = opposite
+                              ? reversed(opposite->stencil)
+                              : sampleSpring(segment_.edges[edge], pose_, candidates_.step, rest);
+    springs_.push_back({edge, rest, std::move(stencil), {}});
     return springs_.back();
   }
 
@@ -106,7 +115,11 @@ void lower(cv::Mat1f& least, const cv::Mat1f& other) {
 /// [segment][pose]: a map over the states of a joint, or of the last node.
 using PoseMaps = std::vector<std::vector<cv::Mat1f>>;
 
-double leastOf(const cv::Mat1f& map) { return *std::min_element(map.begin(), map.end()); }
+double leastOf(const cv::Mat1f& map) {
+  double least = 0.0;
+  cv::minMaxIdx(map, &least);
+  return least;
+}
 
 cv::Mat1f sumOf(const cv::Mat1f& a, const cv::Mat1f& b) {
   cv::Mat1f sum;

@@ -26,7 +26,10 @@ class DirectionFrame {
   double turnOf(const cv::Point2d& edge) const {
     // The null edge points along the x axis.
     if (edge == cv::Point2d()) return null_turn_;
-    return std::atan2(axis_.cross(edge), axis_.dot(edge));
+    const double along = axis_.dot(edge);
+    const double across = axis_.cross(edge);
+    // The arc tangent of two arguments takes twice as long.
+    return along > 0.0 ? std::atan(across / along) : std::atan2(across, along);
   }
 
   /// Cosine of the turn times the edge's length [px].

@@ -10,20 +10,25 @@
 namespace chain_tracker {
 namespace {
 
-/// coefficient[x] += learned * sqrt(seen[x])
-CHAIN_TRACKER_MULTIVERSION
-void accumulateRow(const int* __restrict seen, float learned, float* __restrict coefficient,
-                   int columns) {
-  for (int x = 0; x < columns; ++x) {
-    coefficient[x] += learned * std::sqrt(static_cast<float>(seen[x]));
-  }
-}
+/// A code that a part's own window has.
+struct LearnedCode {
+  size_t code;
+  float learned;    ///< root of its share in the part's window over the side of the windows
+  const int* seen;  ///< its counts in the windows of a row of states
+};
 
+/// costs[x] = weight * sqrt(1 - sum of learned * sqrt(seen[x]))
 CHAIN_TRACKER_MULTIVERSION
-void coefficientToCostRow(float* __restrict value, float weight, int columns) {
+void computeCostRow(const LearnedCode* codes, size_t count, float weight, float* __restrict costs,
+                    int columns) {
+  for (int x = 0; x < columns; ++x) costs[x] = 1.0F;
+  for (size_t i = 0; i < count; ++i) {
+    const int* __restrict seen = codes[i].seen;
+    const float learned = codes[i].learned;
+    for (int x = 0; x < columns; ++x) costs[x] -= learned * std::sqrt(static_cast<float>(seen[x]));
+  }
   for (int x = 0; x < columns; ++x) {
-    const float distance = 1.0F - value[x];
-    value[x] = weight * std::sqrt(distance > 0.0F ? distance : 0.0F);
+    costs[x] = weight * std::sqrt(costs[x] > 0.0F ? costs[x] : 0.0F);
   }
 }
 
@@ -37,15 +42,14 @@ void markCodes(const RootHistogram& part, std::vector<bool>& wanted) {
 /// `side`: of the windows [px].
 void computePartCost(const std::vector<cv::Mat1i>& counts, const RootHistogram& part,
                      const cv::Point& corner, int side, float weight, cv::Mat1f& cost) {
+  std::vector<LearnedCode> codes;
+  for (size_t code = 0; code < part.size(); ++code) {
+    if (part[code] == 0.0F) continue;
+    codes.push_back({code, part[code] / static_cast<float>(side), nullptr});
+  }
   for (int row = 0; row < cost.rows; ++row) {
-    float* out = cost[row];
-    std::fill(out, out + cost.cols, 0.0F);
-    for (size_t code = 0; code < part.size(); ++code) {
-      if (part[code] == 0.0F) continue;
-      accumulateRow(counts[code][corner.y + row] + corner.x, part[code] / static_cast<float>(side),
-                    out, cost.cols);
-    }
-    coefficientToCostRow(out, weight, cost.cols);
+    for (LearnedCode& code : codes) code.seen = counts[code.code][corner.y + row] + corner.x;
+    computeCostRow(codes.data(), codes.size(), weight, cost[row], cost.cols);
   }
 }
 

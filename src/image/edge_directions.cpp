@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/image/edge_directions.h"
 
-#include <cmath>
-#include <cstdlib>
+#include <limits>
 
 #include "chain_tracker/image/multiversion.h"
 #include "resizable_executor.h"
@@ -19,28 +18,38 @@ haar::FeatureEnsemble gradientFeatures() {
            {"down", {{-1, 1, kSummed, 1, 1}, {-1, -1, kSummed, 1, -1}}}}};
 }
 
-/// Directions lie 45 degrees apart; the tangent of half of that is 0.414, nearly 2 / 5.
+/// Directions lie 45 degrees apart; the tangent of half of that is 0.414, nearly 2 / 5. Every step
+/// stays a `Number`, so that narrow ones fill the registers.
 template <typename Number>
-inline int codeOf(Number right, Number down) {
-  const Number across = std::abs(right);
-  const Number along = std::abs(down);
-  const int horizontal = right > 0 ? 1 : 5;
-  const int vertical = down > 0 ? 3 : 7;
-  const int diagonal = down > 0 ? (right > 0 ? 2 : 4) : (right > 0 ? 8 : 6);
-  const int upright = 5 * across < 2 * along ? vertical : diagonal;
-  const int code = 5 * along < 2 * across ? horizontal : upright;
-  return across + along < kSummed * kLeastContrast ? kNoEdge : code;
+inline Number codeOf(Number right, Number down) {
+  const auto narrow = [](auto value) { return static_cast<Number>(value); };
+  const Number across = narrow(right < 0 ? -right : right);
+  const Number along = narrow(down < 0 ? -down : down);
+  const Number horizontal = narrow(right > 0 ? 1 : 5);
+  const Number vertical = narrow(down > 0 ? 3 : 7);
+  const Number upper = narrow(right > 0 ? 8 : 6);
+  const Number lower = narrow(right > 0 ? 2 : 4);
+  const Number diagonal = down > 0 ? lower : upper;
+  const Number upright = narrow(5 * across) < narrow(2 * along) ? vertical : diagonal;
+  const Number code = narrow(5 * along) < narrow(2 * across) ? horizontal : upright;
+  return narrow(across + along) < narrow(kSummed * kLeastContrast) ? narrow(kNoEdge) : code;
 }
+
+/// Five times the largest gradient of bytes is a short.
+static_assert(5 * kSummed * 255 <= std::numeric_limits<short>::max());
 
 CHAIN_TRACKER_MULTIVERSION
 void codeRow(const int* __restrict right, const int* __restrict down, uchar* __restrict codes,
              int columns) {
-  for (int x = 0; x < columns; ++x) codes[x] = static_cast<uchar>(codeOf(right[x], down[x]));
+  for (int x = 0; x < columns; ++x) {
+    codes[x] = static_cast<uchar>(
+        codeOf<short>(static_cast<short>(right[x]), static_cast<short>(down[x])));
+  }
 }
 
 }  // namespace
 
-int edgeCode(float right, float down) { return codeOf(right, down); }
+int edgeCode(float right, float down) { return static_cast<int>(codeOf(right, down)); }
 
 EdgeDirections::EdgeDirections()
     : executor_(std::make_unique<ResizableExecutor>(gradientFeatures())) {}

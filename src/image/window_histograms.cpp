@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 
 #include "reused_plane.h"
@@ -41,56 +42,101 @@ void countPixels(const cv::Mat1b& codes, int step, const std::vector<size_t>& wa
   }
 }
 
-/// Counters of as many codes as two registers hold, which every processor has.
-constexpr size_t kHalf = 16;
-constexpr size_t kCounters = 2 * kHalf;
-typedef uchar HalfCounters __attribute__((vector_size(kHalf)));
-struct Counters {
-  HalfCounters first;
-  HalfCounters second;
-};
+/// Counters of as many codes as a register holds that every processor has.
+constexpr size_t kCounters = 16;
+typedef uchar Counters __attribute__((vector_size(kCounters)));
+using CounterBlock = std::array<Counters, kCounters>;
 
-/// The same for codes `first` to `end` of the wanted ones, in cells of at most 255 pixels: cell by
-/// cell, all counters at once, none of which has to wait for memory. Pays where cells have more
-/// pixels than there are counters to write.
-void countCells(const cv::Mat1b& codes, int step, const std::vector<size_t>& wanted, size_t first,
-                size_t end, int columns, cv::Mat1b& plane) {
-  std::array<Counters, kCodes> one_of{};
-  for (size_t i = first; i < end; ++i) {
-    Counters& one = one_of[wanted[i]];
-    (i - first < kHalf ? one.first : one.second)[(i - first) % kHalf] = 1;
+/// One pass of a perfect shuffle: the first half of the rows interleaved with the second. After
+/// four of them rows have become columns.
+CounterBlock interleaved(const CounterBlock& rows) {
+  constexpr Counters kLow = {0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23};
+  CounterBlock mixed;
+  for (size_t i = 0; i < kCounters / 2; ++i) {
+    mixed[2 * i] = __builtin_shuffle(rows[i], rows[i + kCounters / 2], kLow);
+    mixed[2 * i + 1] = __builtin_shuffle(rows[i], rows[i + kCounters / 2], kLow + 8);
   }
-  for (int row = 0; row < plane.rows; ++row) {
-    uchar* const cells = plane[row] + static_cast<std::ptrdiff_t>(first) * columns;
-    for (int column = 0; column < columns; ++column) {
-      HalfCounters first_counts{};
-      HalfCounters second_counts{};
-      for (int y = row * step; y < (row + 1) * step; ++y) {
-        const uchar* code = codes[y] + static_cast<std::ptrdiff_t>(column) * step;
-        for (int i = 0; i < step; ++i) {
-          const Counters& one = one_of[code[i]];
-          first_counts += one.first;
-          second_counts += one.second;
-        }
+  return mixed;
+}
+
+CounterBlock transposed(const CounterBlock& rows) {
+  return interleaved(interleaved(interleaved(interleaved(rows))));
+}
+
+/// Cells in which up to 2 * kCounters codes are counted, cell by cell, all counters at once, none
+/// of which has to wait for memory. Pays where cells have more pixels than there are counters to
+/// write.
+template <size_t kBlocks>
+class CellCounter {
+ public:
+  CellCounter(const std::vector<size_t>& wanted, size_t first, size_t end) : codes_(end - first) {
+    for (size_t i = first; i < end; ++i) {
+      one_of_[wanted[i]][(i - first) / kCounters][(i - first) % kCounters] = 1;
+    }
+  }
+
+  /// A row of cells of at most 255 pixels: the counts of the i-th code go to
+  /// cells[i * columns + column].
+  void countRow(const cv::Mat1b& codes, int first_row, int step, int columns, uchar* cells) const {
+    constexpr int kRun = static_cast<int>(kCounters);
+    for (int first = 0; first < columns; first += kRun) {
+      const int run = std::min(kRun, columns - first);
+      std::array<CounterBlock, kBlocks> blocks{};
+      for (int i = 0; i < run; ++i) {
+        const auto counts = countCell(codes, {(first + i) * step, first_row}, step);
+        for (size_t b = 0; b < kBlocks; ++b) blocks[b][static_cast<size_t>(i)] = counts[b];
       }
-      uchar* cell = cells + column;
-      for (size_t i = 0; i < end - first; ++i, cell += columns) {
-        *cell = i < kHalf ? first_counts[i] : second_counts[i - kHalf];
+      for (size_t b = 0; b < kBlocks; ++b) blocks[b] = transposed(blocks[b]);
+      for (size_t i = 0; i < codes_; ++i) {
+        std::memcpy(cells + static_cast<std::ptrdiff_t>(i) * columns + first,
+                    &blocks[i / kCounters][i % kCounters], static_cast<size_t>(run));
       }
     }
+  }
+
+ private:
+  using CellCounts = std::array<Counters, kBlocks>;
+
+  CellCounts countCell(const cv::Mat1b& codes, const cv::Point& corner, int step) const {
+    CellCounts counts{};
+    for (int y = 0; y < step; ++y) {
+      const uchar* code = codes[corner.y + y] + corner.x;
+      for (int x = 0; x < step; ++x) {
+        for (size_t b = 0; b < kBlocks; ++b) counts[b] += one_of_[code[x]][b];
+      }
+    }
+    return counts;
+  }
+
+  size_t codes_;
+  std::array<CellCounts, kCodes> one_of_{};
+};
+
+/// Of the wanted codes from the `first` on; at most as many as the counter holds.
+template <size_t kBlocks>
+void countCells(const cv::Mat1b& codes, int step, const std::vector<size_t>& wanted, size_t first,
+                int columns, cv::Mat1b& plane) {
+  const size_t end = std::min(first + kBlocks * kCounters, wanted.size());
+  const CellCounter<kBlocks> counter(wanted, first, end);
+  for (int row = 0; row < plane.rows; ++row) {
+    uchar* const cells = plane[row] + static_cast<std::ptrdiff_t>(first) * columns;
+    counter.countRow(codes, row * step, step, columns, cells);
   }
 }
 
 void countSmallCells(const cv::Mat1b& codes, int step, const std::vector<size_t>& wanted,
                      int columns, cv::Mat1b& plane) {
-  const size_t counters = std::min(wanted.size(), kCounters);
+  const size_t counters = std::min(wanted.size(), 2 * kCounters);
   if (static_cast<size_t>(step) * static_cast<size_t>(step) < counters) {
     countPixels(codes, step, wanted, columns, plane);
     return;
   }
-  for (size_t first = 0; first < wanted.size(); first += kCounters) {
-    const size_t end = std::min(first + kCounters, wanted.size());
-    countCells(codes, step, wanted, first, end, columns, plane);
+  for (size_t first = 0; first < wanted.size(); first += 2 * kCounters) {
+    if (wanted.size() - first > kCounters) {
+      countCells<2>(codes, step, wanted, first, columns, plane);
+    } else {
+      countCells<1>(codes, step, wanted, first, columns, plane);
+    }
   }
 }
 

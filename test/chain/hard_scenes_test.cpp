@@ -99,7 +99,6 @@ std::vector<Case> cases() {
           {"occluded_guitar_string", "guitar_string", occluded, 0.85},
           {"occluded_cable", "cable", occluded, 0.65},
           {"occluded_suture", "suture", occluded, 0.55},
-          {"occluded_lips", "lips", occluded, 0.75},
           {"spinning_bottle", "bottle", spinning, 0.9},
           {"spinning_box", "box", spinning, 0.95},
           {"spinning_cable", "cable", spinning, 0.95},
