@@ -78,7 +78,7 @@ struct SearchModel {
   double found_above = 0.2;      ///< confidence over which a LOST object is tracked again
   double occluded_below = 0.25;  ///< confidence under which a part counts as hidden
   /// Cost of a part that moves by `radius` between two frames: keeps what is hidden in place.
-  double travel_weight = 0.3;
+  double travel_weight = 1.0;
   /// Share of the usual likeness, by all channels, below which the object is looked for elsewhere,
   /// too, and has to have there; 0: never.
   double doubt_below = 0.7;
