@@ -259,7 +259,7 @@ ChainSearch::Candidates ChainSearch::coarseCandidates() {
   const int step = coarseStep(smallestSide(previous_), range_.radius);
   const double radius = std::min(range_.radius, kWidestReach * step);
   Candidates coarse = candidatesAround(centers, previous_, step, radius, Stage::kCoarse);
-  robustify(Stage::kCoarse, coarse);
+  robustify(coarse);
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentModel& model = model_.segments[m];
     coarse.poses.push_back({previous_[m], model.orientation_hypotheses, model.orientation_step,
@@ -283,10 +283,7 @@ ChainSearch::Candidates ChainSearch::fineCandidates(const Candidates& coarse,
   const int step = (coarse_step + kRefinedSteps - 1) / kRefinedSteps;
   const int reach = std::max(kLeastReach, coarse_step + step);
   Candidates fine = candidatesAround(centers, poses, step, reach, Stage::kFine);
-  for (SegmentCandidates& segment : fine.segments) {
-    for (const cv::Mat1f& map : segment.costs) segment.appearance.push_back(map.clone());
-  }
-  robustify(Stage::kFine, fine);
+  for (SegmentCandidates& segment : fine.segments) segment.appearance = segment.costs;
   for (size_t m = 0; m < segments(); ++m) {
     fine.poses.push_back(finePoses(model_.segments[m], poses[m]));
   }
@@ -362,8 +359,9 @@ std::vector<double> ChainSearch::edgeCosts(const Candidates& coarse,
   return costs;
 }
 
-/// The fine stage looks around the parts alone: nothing else is near enough to pull them about.
-void ChainSearch::robustify(Stage stage, Candidates& candidates) const {
+/// Of the coarse stage alone: the fine one looks around the parts, where nothing else is near
+/// enough to pull them about, and where they were must not pull them back.
+void ChainSearch::robustify(Candidates& candidates) const {
   const AppearanceModel& model = model_.appearance;
   for (size_t m = 0; m < segments(); ++m) {
     const CandidateGrid& grid = candidates.grids[m];
@@ -371,10 +369,7 @@ void ChainSearch::robustify(Stage stage, Candidates& candidates) const {
     for (size_t k = 0; k < layout_[m].parts.size(); ++k) {
       const size_t part = static_cast<size_t>(sought_.segments[m].first_part) + k;
       cv::Mat1f& costs = candidates.segments[m].costs[joint + k];
-      if (stage == Stage::kCoarse) {
-        softenCosts(expectations_.outlierCost(part, model.outlier_below), model.outlier_slope,
-                    costs);
-      }
+      softenCosts(expectations_.outlierCost(part, model.outlier_below), model.outlier_slope, costs);
       if (range_.travel_weight > 0.0) {
         addTravelCosts(grid.positionOf(k, {0.0, 0.0}), grid.lattice.step,
                        sought_.parts[part].position, range_.travel_weight, costs);

@@ -83,7 +83,7 @@ class ChainSearch {
   void computeCosts(size_t m, double turn, Stage stage, Candidates& candidates);
   void addEdgeCosts(size_t m, const std::vector<RootHistogram>& edges, Candidates& candidates);
   std::vector<double> edgeCosts(const Candidates& coarse, const ChainMatch& match) const;
-  void robustify(Stage stage, Candidates& candidates) const;
+  void robustify(Candidates& candidates) const;
   double turnOf(size_t part) const;
   ChainMatch matched(const std::vector<PoseGrid>& poses,
                      const std::vector<SegmentCandidates>& candidates,
