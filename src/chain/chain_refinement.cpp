@@ -80,7 +80,7 @@ cv::Matx22d covarianceOf(const Bowl& bowl) {
 
 RefinedPart refinePart(const SegmentCandidates& candidates, std::size_t node,
                        const cv::Mat1f& marginal, const cv::Point& state) {
-  const double appearance = candidates.appearance[node](state);
+  const double appearance = candidates.costs[node](state);
   const Bowl bowl(marginal, state);
   if (bowl.margin().width == 0 || bowl.margin().height == 0) {
     return {candidates.positionOf(node, state), appearance,

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "chain_tracker/chain/similarity_fit.h"
 #include "rest_shape.h"
 #include "robust_costs.h"
+#include "segment_fit.h"
 #include "stopwatch.h"
 
 namespace chain_tracker {
@@ -34,12 +34,6 @@ constexpr double kCellVariance = 0.25;
 constexpr int kPoseStates = 8;
 /// Of the poses to the parts, and of the parts to the poses.
 constexpr int kFits = 2;
-/// Of a part to where the fit has it, of its window's side: one farther off counts less than a
-/// quarter.
-constexpr double kTolerance = 0.3;
-/// Keeps the fit defined when no part is seen.
-constexpr double kSmallestWeight = 1e-3;
-
 /// Of each edge from the one before in the first frame, as far as the shape is remembered.
 std::vector<double> rememberedTurns(const std::vector<EdgeLayout>& edges, double shape_memory) {
   std::vector<double> turns(edges.size(), 0.0);
@@ -99,20 +93,6 @@ std::vector<SegmentPose> interpolatedPoses(const std::vector<PoseGrid>& grids,
   return poses;
 }
 
-/// Length of the chain found over that of the reference. What coils up comes nearer to its middle
-/// without becoming shorter: a similarity would take that for a smaller scale.
-double lengthRatio(const std::vector<cv::Point2d>& reference, const std::vector<cv::Point2d>& found,
-                   const std::vector<double>& weights) {
-  double reference_length = 0.0;
-  double found_length = 0.0;
-  for (size_t k = 1; k < found.size(); ++k) {
-    const double weight = std::min(weights[k - 1], weights[k]);
-    reference_length += weight * cv::norm(reference[k] - reference[k - 1]);
-    found_length += weight * cv::norm(found[k] - found[k - 1]);
-  }
-  return found_length / reference_length;
-}
-
 /// The states in the middle: enough to tell poses apart.
 SegmentCandidates middleOf(const SegmentCandidates& candidates) {
   const cv::Size& all = candidates.states;
@@ -134,14 +114,6 @@ std::vector<SegmentCandidates> middlesOf(const std::vector<SegmentCandidates>& s
   middles.reserve(segments.size());
   for (const SegmentCandidates& segment : segments) middles.push_back(middleOf(segment));
   return middles;
-}
-
-double clampedTurn(double from, double to, double limit) {
-  return wrapAngle(from + std::clamp(wrapAngle(to - from), -limit, limit));
-}
-
-double clampedScale(double from, double to, double limit) {
-  return from * std::exp(std::clamp(std::log(to / from), -limit, limit));
 }
 
 }  // namespace
@@ -283,7 +255,6 @@ ChainSearch::Candidates ChainSearch::fineCandidates(const Candidates& coarse,
   const int step = (coarse_step + kRefinedSteps - 1) / kRefinedSteps;
   const int reach = std::max(kLeastReach, coarse_step + step);
   Candidates fine = candidatesAround(centers, poses, step, reach, Stage::kFine);
-  for (SegmentCandidates& segment : fine.segments) segment.appearance = segment.costs;
   for (size_t m = 0; m < segments(); ++m) {
     fine.poses.push_back(finePoses(model_.segments[m], poses[m]));
   }
@@ -418,38 +389,14 @@ void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,
     part.visible = part.confidence >= model_.search.occluded_below;
   }
   found.confidence = expectations_.meanConfidence(found.parts, 0, parts.size());
-  for (size_t m = 0; m < segments(); ++m) fitSegment(m, poses[m], found);
-}
-
-/// Least squares over the parts but those that have slid off to what looks like them, within the
-/// resolution of the poses searched, half a step in each fit: beyond it, the energy knows better
-/// than the parts, which lean inwards wherever the object is uniform.
-void ChainSearch::fitSegment(size_t m, const SegmentPose& searched, ChainState& state) const {
-  SegmentState& segment = state.segments[m];
-  std::vector<cv::Point2d> reference;
-  std::vector<cv::Point2d> found;
-  std::vector<double> weights;
-  for (size_t k = 0; k < layout_[m].parts.size(); ++k) {
-    const PartState& part = state.parts[static_cast<size_t>(segment.first_part) + k];
-    reference.push_back(layout_[m].parts[k].position);
-    found.push_back(part.position);
-    weights.push_back(part.confidence + kSmallestWeight);
+  for (size_t m = 0; m < segments(); ++m) {
+    SegmentState& segment = found.segments[m];
+    const auto first = found.parts.begin() + segment.first_part;
+    segment.image_from_segment = fitSegment(layout_[m], finePoses(model_.segments[m], poses[m]),
+                                            {first, first + segment.part_count});
+    segment.confidence = expectations_.meanConfidence(
+        found.parts, static_cast<size_t>(segment.first_part), layout_[m].parts.size());
   }
-  const bool is_deformable = layout_[m].layout == Layout::kDeformable;
-  if (!is_deformable) {
-    weights = robustWeights(reference, found, weights, kTolerance * sideOf(m, searched.scale));
-  }
-  Similarity fit = fitSimilarity(reference, found, weights);
-  if (is_deformable) {
-    fit.scale = lengthRatio(reference, found, weights);
-  }
-  const PoseGrid poses = finePoses(model_.segments[m], searched);
-  const double angle = clampedTurn(searched.orientation, fit.angle, 0.5 * poses.orientation_step);
-  const double scale = clampedScale(searched.scale, fit.scale, 0.5 * poses.scale_step);
-  segment.image_from_segment = {angle, scale,
-                                fitTranslation(reference, found, weights, angle, scale)};
-  const auto first_part = static_cast<size_t>(segment.first_part);
-  segment.confidence = expectations_.meanConfidence(state.parts, first_part, reference.size());
 }
 
 }  // namespace chain_tracker

@@ -93,7 +93,6 @@ class ChainSearch {
   double likeness(const std::vector<RefinedPart>& parts) const;
   void fillIn(const std::vector<RefinedPart>& parts, const std::vector<SegmentPose>& poses,
               ChainState& found) const;
-  void fitSegment(size_t m, const SegmentPose& searched, ChainState& state) const;
 
   ChainModel model_;
   std::vector<SegmentLayout> layout_;

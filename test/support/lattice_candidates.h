@@ -11,7 +11,7 @@ namespace chain_tracker {
 
 inline SegmentCandidates candidatesOn(const CandidateGrid& grid,
                                       const std::vector<cv::Mat1f>& costs) {
-  SegmentCandidates candidates{grid.lattice.step, grid.states, {}, costs, costs};
+  SegmentCandidates candidates{grid.lattice.step, grid.states, {}, costs};
   for (std::size_t k = 0; k < grid.corners.size(); ++k) {
     candidates.origins.push_back(grid.positionOf(k, {0.0, 0.0}));
   }

@@ -22,11 +22,10 @@ namespace chain_tracker {
 /// Where the nodes of a segment may be, and what that costs. The joint between two segments has the
 /// same states in both.
 struct SegmentCandidates {
-  int step = 1;                       ///< of the lattices [px]
-  cv::Size states;                    ///< of every node: columns and rows
-  std::vector<cv::Point2d> origins;   ///< position of each node's state (0, 0) [px]
-  std::vector<cv::Mat1f> costs;       ///< of each node's states; a joint's are zero
-  std::vector<cv::Mat1f> appearance;  ///< what the costs are without robustness; for refineChain()
+  int step = 1;                      ///< of the lattices [px]
+  cv::Size states;                   ///< of every node: columns and rows
+  std::vector<cv::Point2d> origins;  ///< position of each node's state (0, 0) [px]
+  std::vector<cv::Mat1f> costs;      ///< of each node's states; a joint's are zero
 
   /// Position of a node's state, which may lie between lattice points [px].
   cv::Point2d positionOf(size_t node, const cv::Point2d& state) const {

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "segment_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "chain_tracker/chain/similarity_fit.h"
+#include "chain_tracker/image/pixel_geometry.h"
+
+namespace chain_tracker {
+namespace {
+
+/// Of a part to where the fit has it, of its window's side: one farther off counts less than a
+/// quarter.
+constexpr double kTolerance = 0.3;
+/// Keeps the fit defined when no part is seen.
+constexpr double kSmallestWeight = 1e-3;
+
+/// Length of the chain found over that of the reference. What coils up comes nearer to its middle
+/// without becoming shorter: a similarity would take that for a smaller scale.
+double lengthRatio(const std::vector<cv::Point2d>& reference, const std::vector<cv::Point2d>& found,
+                   const std::vector<double>& weights) {
+  double reference_length = 0.0;
+  double found_length = 0.0;
+  for (size_t k = 1; k < found.size(); ++k) {
+    const double weight = std::min(weights[k - 1], weights[k]);
+    reference_length += weight * cv::norm(reference[k] - reference[k - 1]);
+    found_length += weight * cv::norm(found[k] - found[k - 1]);
+  }
+  return found_length / reference_length;
+}
+
+double clampedTurn(double from, double to, double limit) {
+  return wrapAngle(from + std::clamp(wrapAngle(to - from), -limit, limit));
+}
+
+double clampedScale(double from, double to, double limit) {
+  return from * std::exp(std::clamp(std::log(to / from), -limit, limit));
+}
+
+}  // namespace
+
+Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses,
+                      const std::vector<PartState>& parts) {
+  const SegmentPose& searched = poses.middle;
+  std::vector<cv::Point2d> reference;
+  std::vector<cv::Point2d> found;
+  std::vector<double> weights;
+  for (size_t k = 0; k < parts.size(); ++k) {
+    reference.push_back(layout.parts[k].position);
+    found.push_back(parts[k].position);
+    weights.push_back(parts[k].confidence + kSmallestWeight);
+  }
+  const bool is_deformable = layout.layout == Layout::kDeformable;
+  if (!is_deformable) {
+    const double side = layout.parts.front().side * searched.scale;
+    weights = robustWeights(reference, found, weights, kTolerance * side);
+  }
+  Similarity fit = fitSimilarity(reference, found, weights);
+  if (is_deformable) fit.scale = lengthRatio(reference, found, weights);
+  const double angle = clampedTurn(searched.orientation, fit.angle, 0.5 * poses.orientation_step);
+  const double scale = clampedScale(searched.scale, fit.scale, 0.5 * poses.scale_step);
+  return {angle, scale, fitTranslation(reference, found, weights, angle, scale)};
+}
+
+}  // namespace chain_tracker

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The pose of a segment from where its parts were found (thesis ch. 3.4.3).
+#pragma once
+
+#include <vector>
+
+#include "chain_tracker/chain/chain_layout.h"
+#include "chain_tracker/chain/chain_state.h"
+#include "chain_tracker/chain/pose_grid.h"
+
+namespace chain_tracker {
+
+/// Least squares over the segment's parts but those that have slid off to what looks like them,
+/// weighted by confidence; at most half a step of `poses` from their middle: beyond it, the energy
+/// knows better than the parts, which lean inwards wherever the object is uniform. O(parts).
+Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses,
+                      const std::vector<PartState>& parts);
+
+}  // namespace chain_tracker
