@@ -163,9 +163,7 @@ class Matcher {
         temporalCost(problem_.model.segments[m], problem_.previous[m], pose(m, h)));
   }
 
-  JointModel joint(size_t m) const {
-    return problem_.model.joints.empty() ? JointModel() : problem_.model.joints[m];
-  }
+  JointModel joint(size_t m) const { return jointOf(problem_.model, m); }
 
   /// Cost of pose g of segment m with pose h of the next one.
   float jointBetween(size_t m, size_t g, size_t h) const {

@@ -120,6 +120,10 @@ ChainModel forPolyline(ChainModel model, size_t points) {
   return model;
 }
 
+JointModel jointOf(const ChainModel& model, size_t segment) {
+  return model.joints.empty() ? JointModel() : model.joints[segment];
+}
+
 std::vector<std::string> faultsOf(const ChainModel& model) {
   FaultList faults;
   faults.requireText("name", model.name);

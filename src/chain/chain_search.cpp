@@ -8,6 +8,7 @@
 #include "rest_shape.h"
 #include "robust_costs.h"
 #include "segment_fit.h"
+#include "state_motion.h"
 #include "stopwatch.h"
 
 namespace chain_tracker {
@@ -34,6 +35,11 @@ constexpr double kCellVariance = 0.25;
 constexpr int kPoseStates = 8;
 /// Of the poses to the parts, and of the parts to the poses.
 constexpr int kFits = 2;
+/// Parts that are asked where the object may be, of all and of a segment: more take longer and tell
+/// little more.
+constexpr size_t kVoters = 16;
+constexpr size_t kFewestVoters = 4;
+
 /// Of each edge from the one before in the first frame, as far as the shape is remembered.
 std::vector<double> rememberedTurns(const std::vector<EdgeLayout>& edges, double shape_memory) {
   std::vector<double> turns(edges.size(), 0.0);
@@ -124,6 +130,8 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       layout_(layout.segments),
       appearance_(image, layout, model.appearance),
       expectations_(appearance_, model.appearance, initial.parts.size()),
+      overlaps_(initial.parts),
+      placement_search_(model.appearance, image.size()),
       pixels_(appearance_.palette()) {
   for (const PartState& part : initial.parts) initial_orientations_.push_back(part.orientation);
   for (size_t m = 0; m < segments(); ++m) {
@@ -159,6 +167,45 @@ FoundChain ChainSearch::find(const ChainState& sought, const SearchRange& range)
   }
   times.refinement = watch.lap();
   return found;
+}
+
+FoundChain ChainSearch::findAnywhere(const ChainState& sought, double reach,
+                                     const SearchRange& range) {
+  Stopwatch watch;
+  ChainState placed = sought;
+  const std::vector<Similarity> motions = placements(sought, reach);
+  for (size_t m = 0; m < segments(); ++m) moveSegment(motions[m], m, placed);
+  const double placing = watch.lap();
+  FoundChain found = find(placed, range);
+  found.state.times.part_costs += placing;
+  return found;
+}
+
+std::vector<Similarity> ChainSearch::placements(const ChainState& sought, double reach) {
+  const std::vector<SegmentPose> poses = posesOf(sought);
+  std::vector<RigidSegment> rigid;
+  std::vector<Hinge> hinges;
+  for (size_t m = 0; m < segments(); ++m) {
+    rigid.push_back({votersOf(sought, m), poses[m]});
+    if (m > 0) hinges.push_back({jointPosition(sought, m - 1), jointOf(model_, m - 1)});
+  }
+  return placement_search_.find(rigid, hinges, reach, pixels_);
+}
+
+/// Every so many parts, from end to end.
+std::vector<Voter> ChainSearch::votersOf(const ChainState& state, size_t m) {
+  const size_t parts = layout_[m].parts.size();
+  const size_t wanted = std::max(kFewestVoters, kVoters / segments());
+  const size_t every = (parts + wanted - 1) / wanted;
+  const SegmentState& segment = state.segments[m];
+  std::vector<Voter> voters;
+  for (size_t k = 0; k < parts; k += every) {
+    const size_t part = static_cast<size_t>(segment.first_part) + k;
+    voters.push_back({state.parts[part].position, sideOf(m, segment.image_from_segment.scale),
+                      appearance_.part(part, turnOf(state, part)).colors,
+                      expectations_.colorOutlierCost(part, model_.appearance.outlier_below)});
+  }
+  return voters;
 }
 
 double ChainSearch::sideOf(size_t m, double scale) const {
@@ -288,7 +335,7 @@ void ChainSearch::computeCosts(size_t m, double turn, Stage stage, Candidates& c
   std::vector<RootHistogram> edges;
   std::vector<WindowTexture> textures;
   for (size_t k = first_part; k < first_part + segment.parts.size(); ++k) {
-    const PartAppearance& part = appearance_.part(k, wrapAngle(turnOf(k) + turn));
+    const PartAppearance& part = appearance_.part(k, wrapAngle(turnOf(sought_, k) + turn));
     colors.push_back(part.colors);
     edges.push_back(part.edges);
     textures.push_back(part.texture);
@@ -349,9 +396,9 @@ void ChainSearch::robustify(Candidates& candidates) const {
   }
 }
 
-/// Of a part since the first frame, as it is sought [rad].
-double ChainSearch::turnOf(size_t part) const {
-  return wrapAngle(sought_.parts[part].orientation - initial_orientations_[part]);
+/// Of a part since the first frame [rad].
+double ChainSearch::turnOf(const ChainState& state, size_t part) const {
+  return wrapAngle(state.parts[part].orientation - initial_orientations_[part]);
 }
 
 ChainMatch ChainSearch::matched(const std::vector<PoseGrid>& poses,
@@ -368,15 +415,16 @@ void ChainSearch::settle(std::vector<SegmentPose> poses,
     const std::vector<RefinedPart> parts = refineChain(layout_, poses, candidates, fine_workspace_);
     if (parts.empty()) return;
     fillIn(parts, poses, found.state);
-    found.likeness = likeness(parts);
+    found.likeness = likeness(parts, found.state.parts);
     poses = posesOf(found.state);
   }
 }
 
-double ChainSearch::likeness(const std::vector<RefinedPart>& parts) const {
+double ChainSearch::likeness(const std::vector<RefinedPart>& refined,
+                             const std::vector<PartState>& parts) const {
   std::vector<double> costs = edge_costs_;
-  for (size_t k = 0; k < parts.size(); ++k) costs[k] += parts[k].appearance;
-  return expectations_.likeness(costs);
+  for (size_t k = 0; k < refined.size(); ++k) costs[k] += refined[k].appearance;
+  return expectations_.likeness(costs, overlaps_.shares(parts));
 }
 
 void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,

@@ -18,6 +18,8 @@
 #include "chain_tracker/chain/pose_grid.h"
 #include "chain_tracker/chain/texture_costs.h"
 #include "part_expectations.h"
+#include "part_overlaps.h"
+#include "placement_search.h"
 
 namespace chain_tracker {
 
@@ -54,6 +56,9 @@ class ChainSearch {
   /// Time as of ChainTracker::update().
   FoundChain find(const ChainState& sought, const SearchRange& range);
 
+  /// As find(), around the place of PlacementSearch within `reach` [px].
+  FoundChain findAnywhere(const ChainState& sought, double reach, const SearchRange& range);
+
  private:
   /// Edges tell the object from what is around it even where its look has changed somewhat, texture
   /// tells to a fraction of a pixel where a window lies.
@@ -84,13 +89,16 @@ class ChainSearch {
   void addEdgeCosts(size_t m, const std::vector<RootHistogram>& edges, Candidates& candidates);
   std::vector<double> edgeCosts(const Candidates& coarse, const ChainMatch& match) const;
   void robustify(Candidates& candidates) const;
-  double turnOf(size_t part) const;
+  double turnOf(const ChainState& state, size_t part) const;
+  std::vector<Similarity> placements(const ChainState& sought, double reach);
+  std::vector<Voter> votersOf(const ChainState& state, size_t m);
   ChainMatch matched(const std::vector<PoseGrid>& poses,
                      const std::vector<SegmentCandidates>& candidates,
                      ChainSolverWorkspace& workspace) const;
   void settle(std::vector<SegmentPose> poses, const std::vector<SegmentCandidates>& candidates,
               FoundChain& found);
-  double likeness(const std::vector<RefinedPart>& parts) const;
+  double likeness(const std::vector<RefinedPart>& refined,
+                  const std::vector<PartState>& parts) const;
   void fillIn(const std::vector<RefinedPart>& parts, const std::vector<SegmentPose>& poses,
               ChainState& found) const;
 
@@ -98,6 +106,8 @@ class ChainSearch {
   std::vector<SegmentLayout> layout_;
   ObjectAppearance appearance_;
   PartExpectations expectations_;
+  PartOverlaps overlaps_;
+  PlacementSearch placement_search_;
   std::vector<double> initial_orientations_;           // of the parts
   std::vector<std::vector<double>> remembered_turns_;  // of each segment's edges
   std::vector<double> variance_shares_;  // of the parts, in what the chain alone would leave

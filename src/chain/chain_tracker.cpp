@@ -10,7 +10,7 @@
 #include "chain_tracker/chain/link_width.h"
 #include "chain_tracker/chain/object_shape.h"
 #include "chain_tracker/chain/target_checks.h"
-#include "lost_search.h"
+#include "state_motion.h"
 #include "stopwatch.h"
 
 namespace chain_tracker {
@@ -22,6 +22,8 @@ constexpr double kWidestSearch = 0.5;
 constexpr int kFramesPerLook = 2;
 /// How much more likeness it takes to believe that it is there.
 constexpr double kClearlyBetter = 0.1;
+/// Of an object in doubt, to each side, at least [rad].
+constexpr double kLeastTurn = 0.4;
 /// Of what the parts can tell: more than that is hidden of an object that counts as occluded. The
 /// corner windows of a box show mostly background, which changes.
 constexpr double kMostHidden = 0.1;
@@ -47,7 +49,7 @@ class ChainTracker::Implementation {
     requireSameKind(image, image_size_, image_type_);
     search_.show(image);
     times_ = StepTimes();
-    FoundChain found = state_.status == TrackingStatus::kLost ? look(frames_lost_) : follow();
+    FoundChain found = state_.status == TrackingStatus::kLost ? look(1 + frames_lost_) : follow();
     Stopwatch watch;
     accept(std::move(found));
     times_.pose += watch.lap();
@@ -104,7 +106,11 @@ class ChainTracker::Implementation {
   }
 
   FoundChain find(const ChainState& sought, const SearchRange& range) {
-    FoundChain found = search_.find(sought, range);
+    return counted(search_.find(sought, range));
+  }
+
+  /// At the time it took.
+  FoundChain counted(FoundChain found) {
     times_ += found.state.times;
     return found;
   }
@@ -139,16 +145,21 @@ class ChainTracker::Implementation {
 
   /// Just beyond what the hypotheses cover, to one side.
   FoundChain turned(int side) {
+    const SegmentModel& model = model_.segments.front();
+    const double covered = model.orientation_hypotheses * model.orientation_step;
     ChainState sought = state_;
-    turnAboutMiddle(side * sweepStep(model_.segments.front()), sought);
+    turnWhole(side * std::max(kLeastTurn, covered), sought);
     return find(sought, {searchRadius(1), 0.0});
   }
 
-  /// Around where the object was last seen for sure, at another orientation every other time.
+  /// Around where the object was last seen for sure: a chain as it was then or, every other time,
+  /// one around wherever its segments fit best.
   FoundChain look(int failures) {
-    ChainState sought = trusted_;
-    turnAboutMiddle(soughtTurn(model_.segments.front(), failures), sought);
-    FoundChain found = find(sought, {searchRadius(failures), 0.0});
+    const double reach = searchRadius(failures);
+    const SearchRange nearby{searchRadius(0), 0.0};
+    const bool is_placed = failures > 0 && failures % 2 == 0;
+    FoundChain found = is_placed ? counted(search_.findAnywhere(trusted_, reach, nearby))
+                                 : find(trusted_, {reach, 0.0});
     if (found.state.confidence >= model_.search.found_above) preferBetter(reversed(found), found);
     return found;
   }
@@ -156,7 +167,7 @@ class ChainTracker::Implementation {
   /// What is found of an object whose two ends look alike may be the wrong way round.
   FoundChain reversed(const FoundChain& found) {
     ChainState sought = found.state;
-    turnAboutMiddle(CV_PI, sought);
+    turnWhole(CV_PI, sought);
     return find(sought, {searchRadius(0), 0.0});
   }
 

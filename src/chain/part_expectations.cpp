@@ -52,16 +52,21 @@ double PartExpectations::confidence(size_t part, double cost) const {
   return std::clamp(1.0 - cost / evidence_[part], 0.0, 1.0);
 }
 
+double PartExpectations::colorOutlierCost(size_t part, double share) const {
+  return evidence_[part] * (1.0 - share * usual_[part]);
+}
+
 double PartExpectations::outlierCost(size_t part, double share) const {
   return (evidence_[part] + edge_evidence_[part]) * (1.0 - share * usual_[part]);
 }
 
-double PartExpectations::likeness(const std::vector<double>& costs) const {
+double PartExpectations::likeness(const std::vector<double>& costs,
+                                  const std::vector<double>& shares) const {
   double like = 0.0;
   double all = 0.0;
   for (size_t k = 0; k < costs.size(); ++k) {
     const double evidence = evidence_[k] + edge_evidence_[k];
-    like += std::clamp(evidence - costs[k], 0.0, evidence);
+    like += shares[k] * std::clamp(evidence - costs[k], 0.0, evidence);
     all += evidence;
   }
   return like / all;

@@ -22,14 +22,17 @@ class PartExpectations {
   /// costs what a flat piece of background would.
   double confidence(size_t part, double cost) const;
 
-  /// Cost by colours and edges from which on a part's window is taken for that of something else:
-  /// its confidence would then be `share` of what it usually is.
+  /// Cost by colours from which on a part's window is taken for that of something else: its
+  /// confidence would then be `share` of what it usually is.
+  double colorOutlierCost(size_t part, double share) const;
+
+  /// The same by colours and edges.
   double outlierCost(size_t part, double share) const;
 
-  /// How much parts look as learned whose windows cost `costs` by all channels, in [0, 1]. Busy
-  /// backgrounds have edges, too: it tells which of two chains is the object, but not whether
-  /// either is, as confidences do.
-  double likeness(const std::vector<double>& costs) const;
+  /// How much parts look as learned whose windows cost `costs` by all channels, in [0, 1]; `shares`
+  /// of PartOverlaps. Busy backgrounds have edges, too: it tells which of two chains is the object,
+  /// but not whether either is, as confidences do.
+  double likeness(const std::vector<double>& costs, const std::vector<double>& shares) const;
 
   /// Mean confidence of `count` parts, weighted by what they can tell.
   double meanConfidence(const std::vector<PartState>& parts, size_t first, size_t count) const;

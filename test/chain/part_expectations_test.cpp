@@ -55,6 +55,8 @@ TEST_F(PartExpectationsTest, confidenceSinksFromOneToNoughtWithTheCost) {
 TEST_F(PartExpectationsTest, anOutlierHasItsShareOfTheUsualConfidence) {
   for (int frame = 0; frame < 400; ++frame) observe(0.6);
   for (size_t part = 0; part < parts_; ++part) {
+    EXPECT_NEAR(0.7 * expectations_.colorOutlierCost(part, 0.0),
+                expectations_.colorOutlierCost(part, 0.5), 1e-6);
     EXPECT_NEAR(0.7 * expectations_.outlierCost(part, 0.0), expectations_.outlierCost(part, 0.5),
                 1e-6);
   }
@@ -96,14 +98,20 @@ TEST_F(PartExpectationsTest, meanLiesBetweenThePartsAndIsTheirsWhereTheyAgree) {
 
 /// What all channels could cost is what an outlier costs of which nothing is usual.
 TEST_F(PartExpectationsTest, likenessSinksFromOneToNoughtWithTheCostsOfAllChannels) {
+  const std::vector<double> all(parts_, 1.0);
   std::vector<double> costs(parts_, 0.0);
-  EXPECT_NEAR(1.0, expectations_.likeness(costs), 1e-9);
+  EXPECT_NEAR(1.0, expectations_.likeness(costs, all), 1e-9);
   for (size_t part = 0; part < parts_; ++part) {
     costs[part] = 0.25 * expectations_.outlierCost(part, 0.0);
   }
-  EXPECT_NEAR(0.75, expectations_.likeness(costs), 1e-9);
+  EXPECT_NEAR(0.75, expectations_.likeness(costs, all), 1e-9);
   costs.assign(parts_, 1000.0);
-  EXPECT_NEAR(0.0, expectations_.likeness(costs), 1e-9);
+  EXPECT_NEAR(0.0, expectations_.likeness(costs, all), 1e-9);
+}
+
+TEST_F(PartExpectationsTest, whatTwoPartsSeeIsLikeOnlyOnce) {
+  const std::vector<double> halves(parts_, 0.5);
+  EXPECT_NEAR(0.5, expectations_.likeness(std::vector<double>(parts_, 0.0), halves), 1e-9);
 }
 
 TEST_F(PartExpectationsTest, edgesCountOnlyWhereTheModelLooksAtThem) {

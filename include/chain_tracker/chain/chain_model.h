@@ -99,6 +99,9 @@ struct ChainModel {
 /// segment and counted from 1, if it is one of `segment_per_edge`; any other model as it is.
 ChainModel forPolyline(ChainModel model, size_t points);
 
+/// The joint behind segment `segment`, which is not the last one.
+JointModel jointOf(const ChainModel& model, size_t segment);
+
 /// Every fault of the model, one sentence each: it begins with the key, then its value and what is
 /// allowed; empty if the model can be used.
 std::vector<std::string> faultsOf(const ChainModel& model);

@@ -5,7 +5,7 @@
 /// the first frame, matches the whole chain at once by dynamic programming over a small set of
 /// orientations and scales, refines the winner at full resolution, and judges it. An object that
 /// is less sure than usual is looked for elsewhere, too; one that is lost, farther away in every
-/// frame and at another orientation in every other.
+/// frame, in every other one at any orientation.
 #pragma once
 
 #include <memory>
