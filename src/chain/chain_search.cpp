@@ -7,6 +7,7 @@
 
 #include "rest_shape.h"
 #include "robust_costs.h"
+#include "segment_candidates.h"
 #include "segment_fit.h"
 #include "state_motion.h"
 #include "stopwatch.h"
@@ -31,6 +32,8 @@ constexpr int kLeastReach = 4;
 /// Of a cell of a grid, in what its chain alone would leave: the chain knows two of its neighbours,
 /// the shape holds it on all sides. Calibrated on rendered scenes.
 constexpr double kCellVariance = 0.25;
+/// Of a window's place [px^2]: it covers whole pixels, wherever it should lie between them.
+constexpr double kRoundingVariance = 1.0 / 12.0;
 /// States along a side on which poses are refined: a vector's length.
 constexpr int kPoseStates = 8;
 /// Of the poses to the parts, and of the parts to the poses.
@@ -64,21 +67,6 @@ int coarseStep(double side, double radius) {
   return std::max(1, static_cast<int>(std::lround(std::max(fine, affordable))));
 }
 
-/// The costs of the parts' states are still to be computed; a joint at the end lies on the
-/// lattice of its segment.
-SegmentCandidates candidatesOf(const SegmentLayout& segment, const CandidateGrid& grid,
-                               const cv::Point2d& end) {
-  SegmentCandidates candidates;
-  candidates.step = grid.lattice.step;
-  candidates.states = grid.states;
-  if (segment.entry) candidates.origins.emplace_back();
-  for (size_t k = 0; k < segment.parts.size(); ++k) {
-    candidates.origins.push_back(grid.positionOf(k, {0.0, 0.0}));
-  }
-  if (segment.exit) candidates.origins.push_back(grid.originAround(end));
-  return candidates;
-}
-
 /// Half the coarse steps around the best coarse pose. Where the coarse search has a
 /// single hypothesis, the fits alone turn or rescale the segment, by up to the coarse step.
 PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
@@ -99,26 +87,12 @@ std::vector<SegmentPose> interpolatedPoses(const std::vector<PoseGrid>& grids,
   return poses;
 }
 
-/// The states in the middle: enough to tell poses apart.
-SegmentCandidates middleOf(const SegmentCandidates& candidates) {
-  const cv::Size& all = candidates.states;
-  SegmentCandidates middle;
-  middle.step = candidates.step;
-  middle.states = {std::min(all.width, kPoseStates), std::min(all.height, kPoseStates)};
-  const cv::Point first(cv::Size(all - middle.states) / 2);
-  for (const cv::Point2d& origin : candidates.origins) {
-    middle.origins.push_back(origin + cv::Point2d(first) * candidates.step);
-  }
-  for (const cv::Mat1f& map : candidates.costs) {
-    middle.costs.push_back(map(cv::Rect(first, middle.states)));
-  }
-  return middle;
-}
-
+/// Enough to tell poses apart.
 std::vector<SegmentCandidates> middlesOf(const std::vector<SegmentCandidates>& segments) {
   std::vector<SegmentCandidates> middles;
   middles.reserve(segments.size());
-  for (const SegmentCandidates& segment : segments) middles.push_back(middleOf(segment));
+  for (const SegmentCandidates& segment : segments)
+    middles.push_back(middleStates(segment, kPoseStates));
   return middles;
 }
 
@@ -432,7 +406,8 @@ void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,
   for (size_t k = 0; k < parts.size(); ++k) {
     PartState& part = found.parts[k];
     part.position = parts[k].position;
-    part.covariance = parts[k].covariance * variance_shares_[k];
+    part.covariance =
+        parts[k].covariance * variance_shares_[k] + kRoundingVariance * cv::Matx22d::eye();
     part.confidence = expectations_.confidence(k, parts[k].appearance);
     part.visible = part.confidence >= model_.search.occluded_below;
   }
