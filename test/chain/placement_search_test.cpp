@@ -85,12 +85,17 @@ class Search {
   PlacementSearch search_;
 };
 
-TEST(PlacementSearch, findsABoxAnywhereAtAnyOrientation) {
-  const Similarity start{0.0, 1.0, {80.0, 70.0}};
+/// Learns the box at `start`.
+Search boxSearch(const DrawnBox& box, const Similarity& start) {
   ChainModel model;
   model.segments[0].layout = Layout::kPlanar;
+  return {model, box.image(start), DrawnBox::corners(start)};
+}
+
+TEST(PlacementSearch, findsABoxAnywhereAtAnyOrientation) {
+  const Similarity start{0.0, 1.0, {80.0, 70.0}};
   const DrawnBox box;
-  Search search(model, box.image(start), DrawnBox::corners(start));
+  Search search = boxSearch(box, start);
   for (const double angle : {0.0, 0.9, 2.2, -1.6}) {
     const Similarity there{angle, 1.0, {210.0, 150.0}};
     const Similarity motion = search.find(box.image(there)).front();
@@ -137,10 +142,8 @@ TEST(PlacementSearch, doesNotBendBeyondAJointsLimits) {
 
 TEST(PlacementSearch, placesTheMiddleInsideTheImageWhateverItShows) {
   const Similarity start{0.0, 1.0, {80.0, 70.0}};
-  ChainModel model;
-  model.segments[0].layout = Layout::kPlanar;
   const DrawnBox box;
-  Search search(model, box.image(start), DrawnBox::corners(start));
+  Search search = boxSearch(box, start);
   const Similarity motion = search.find(box.background()).front();
   const cv::Point2d middle = motion.apply(start.translation);
   EXPECT_TRUE(cv::Rect2d(-8.0, -8.0, 336.0, 256.0).contains(middle)) << middle;
