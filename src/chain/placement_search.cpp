@@ -99,6 +99,7 @@ std::vector<cv::Mat1f> costsOf(const std::vector<Voter>& voters, const Cells& ce
   grid.lattice.size = grid.states = cells.size;
   grid.corners.resize(voters.size());
   std::vector<RootHistogram> colors;
+  colors.reserve(voters.size());
   for (const Voter& voter : voters) colors.push_back(voter.colors);
   std::vector<cv::Mat1f> costs;
   computePartCosts(pixels, Channel::kColors, colors, grid, model.weight, costs, workspace);
@@ -220,6 +221,7 @@ std::vector<Similarity> PlacementSearch::find(const std::vector<RigidSegment>& s
                                               FramePixels& pixels) {
   const Cells cells = cellsAround(segments, radius, image_);
   std::vector<std::vector<cv::Mat1f>> costs;
+  costs.reserve(segments.size());
   for (const RigidSegment& segment : segments) {
     costs.push_back(costsOf(segment.voters, cells, model_, pixels, workspace_));
   }
