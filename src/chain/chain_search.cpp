@@ -91,8 +91,9 @@ std::vector<SegmentPose> interpolatedPoses(const std::vector<PoseGrid>& grids,
 std::vector<SegmentCandidates> middlesOf(const std::vector<SegmentCandidates>& segments) {
   std::vector<SegmentCandidates> middles;
   middles.reserve(segments.size());
-  for (const SegmentCandidates& segment : segments)
+  for (const SegmentCandidates& segment : segments) {
     middles.push_back(middleStates(segment, kPoseStates));
+  }
   return middles;
 }
 

@@ -109,7 +109,7 @@ class ChainTracker::Implementation {
     return counted(search_.find(sought, range));
   }
 
-  /// At the time it took.
+  /// Adds the time that it took.
   FoundChain counted(FoundChain found) {
     times_ += found.state.times;
     return found;
@@ -148,7 +148,7 @@ class ChainTracker::Implementation {
     const SegmentModel& model = model_.segments.front();
     const double covered = model.orientation_hypotheses * model.orientation_step;
     ChainState sought = state_;
-    turnWhole(side * std::max(kLeastTurn, covered), sought);
+    turnWhole(side * std::clamp(covered, kLeastTurn, CV_PI), sought);
     return find(sought, {searchRadius(1), 0.0});
   }
 
@@ -157,7 +157,7 @@ class ChainTracker::Implementation {
   FoundChain look(int failures) {
     const double reach = searchRadius(failures);
     const SearchRange nearby{searchRadius(0), 0.0};
-    const bool is_placed = failures > 0 && failures % 2 == 0;
+    const bool is_placed = failures % 2 == 0;
     FoundChain found = is_placed ? counted(search_.findAnywhere(trusted_, reach, nearby))
                                  : find(trusted_, {reach, 0.0});
     if (found.state.confidence >= model_.search.found_above) preferBetter(reversed(found), found);
