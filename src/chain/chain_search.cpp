@@ -161,7 +161,7 @@ std::vector<Similarity> ChainSearch::placements(const ChainState& sought, double
   std::vector<RigidSegment> rigid;
   std::vector<Hinge> hinges;
   for (size_t m = 0; m < segments(); ++m) {
-    rigid.push_back({votersOf(sought, m), poses[m]});
+    rigid.push_back({votersOf(sought, m), sideOf(m, poses[m].scale), poses[m]});
     if (m > 0) hinges.push_back({jointPosition(sought, m - 1), jointOf(model_, m - 1)});
   }
   return placement_search_.find(rigid, hinges, reach, pixels_);
@@ -172,11 +172,11 @@ std::vector<Voter> ChainSearch::votersOf(const ChainState& state, size_t m) {
   const size_t parts = layout_[m].parts.size();
   const size_t wanted = std::max(kFewestVoters, kVoters / segments());
   const size_t every = (parts + wanted - 1) / wanted;
-  const SegmentState& segment = state.segments[m];
+  const auto first = static_cast<size_t>(state.segments[m].first_part);
   std::vector<Voter> voters;
   for (size_t k = 0; k < parts; k += every) {
-    const size_t part = static_cast<size_t>(segment.first_part) + k;
-    voters.push_back({state.parts[part].position, sideOf(m, segment.image_from_segment.scale),
+    const size_t part = first + k;
+    voters.push_back({state.parts[part].position,
                       appearance_.part(part, turnOf(state, part)).colors,
                       expectations_.colorOutlierCost(part, model_.appearance.outlier_below)});
   }

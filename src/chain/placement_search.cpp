@@ -33,10 +33,14 @@ cv::Point2d middleOf(const RigidSegment& segment) {
   return middle;
 }
 
-double reachOf(const RigidSegment& segment) {
+/// The farthest that a part is from the middle of its segment [px].
+double reachOf(const std::vector<RigidSegment>& segments) {
   double reach = 0.0;
-  for (const Voter& voter : segment.voters) {
-    reach = std::max(reach, cv::norm(voter.position - middleOf(segment)));
+  for (const RigidSegment& segment : segments) {
+    const cv::Point2d middle = middleOf(segment);
+    for (const Voter& voter : segment.voters) {
+      reach = std::max(reach, cv::norm(voter.position - middle));
+    }
   }
   return reach;
 }
@@ -57,15 +61,14 @@ struct Cells {
 Cells cellsAround(const std::vector<RigidSegment>& segments, double radius,
                   const cv::Rect2d& image) {
   std::vector<cv::Point2d> middles;
-  double reach = 0.0;
   double smallest = kInfinity;
   for (const RigidSegment& segment : segments) {
     const cv::Point2d middle = middleOf(segment);
     middles.emplace_back(std::clamp(middle.x, 0.0, image.width - 1.0),
                          std::clamp(middle.y, 0.0, image.height - 1.0));
-    reach = std::max(reach, reachOf(segment));
-    for (const Voter& voter : segment.voters) smallest = std::min(smallest, voter.side);
+    smallest = std::min(smallest, segment.side);
   }
+  const double reach = reachOf(segments);
   const cv::Rect2d bounds = uprightBounds(middles);
   const cv::Point2d corner(radius, radius);
   const cv::Rect2d region = cv::Rect2d(bounds.tl() - corner, bounds.br() + corner) & image;
@@ -81,19 +84,18 @@ Cells cellsAround(const std::vector<RigidSegment>& segments, double radius,
 }
 
 int turnsFor(const std::vector<RigidSegment>& segments, int step) {
-  double reach = 0.0;
-  for (const RigidSegment& segment : segments) reach = std::max(reach, reachOf(segment));
-  const double way = 2.0 * CV_PI * reach / step;
+  const double way = 2.0 * CV_PI * reachOf(segments) / step;
   return cvCeil(std::clamp(way / kCellsPerTurn, kFewestTurns, kMostTurns));
 }
 
-/// Of the voters of a segment, which have equal windows.
-std::vector<cv::Mat1f> costsOf(const std::vector<Voter>& voters, const Cells& cells,
+/// Of the segment's voters.
+std::vector<cv::Mat1f> costsOf(const RigidSegment& segment, const Cells& cells,
                                const AppearanceModel& model, FramePixels& pixels,
                                PartCostsWorkspace& workspace) {
+  const std::vector<Voter>& voters = segment.voters;
   CandidateGrid grid;
   grid.lattice.step = cells.step;
-  grid.lattice.window_cells = std::max(1, cvRound(voters.front().side / cells.step));
+  grid.lattice.window_cells = std::max(1, cvRound(segment.side / cells.step));
   const double half = 0.5 * (grid.lattice.window_cells * cells.step - 1);
   grid.lattice.origin = cells.first - cv::Point2d(half, half);
   grid.lattice.size = grid.states = cells.size;
@@ -223,7 +225,7 @@ std::vector<Similarity> PlacementSearch::find(const std::vector<RigidSegment>& s
   std::vector<std::vector<cv::Mat1f>> costs;
   costs.reserve(segments.size());
   for (const RigidSegment& segment : segments) {
-    costs.push_back(costsOf(segment.voters, cells, model_, pixels, workspace_));
+    costs.push_back(costsOf(segment, cells, model_, pixels, workspace_));
   }
   ChainPlacement placement(segments, hinges, cells, costs);
   std::vector<Similarity> best;

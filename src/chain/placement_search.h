@@ -20,13 +20,13 @@ namespace chain_tracker {
 /// A part that is asked.
 struct Voter {
   cv::Point2d position;       ///< where the object was [px]
-  double side = 0.0;          ///< of its window [px]
   RootHistogram colors;       ///< that it is to show
   double outlier_cost = 0.0;  ///< from which on it shows something else
 };
 
 struct RigidSegment {
   std::vector<Voter> voters;  ///< at least one
+  double side = 0.0;          ///< of their windows [px]
   SegmentPose pose;
 };
 

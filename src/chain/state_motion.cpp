@@ -2,10 +2,7 @@
 #include "state_motion.h"
 
 namespace chain_tracker {
-
-Similarity rigidMotion(double angle, const cv::Point2d& center, const cv::Point2d& target) {
-  return {angle, 1.0, target - Similarity{angle, 1.0, {}}.apply(center)};
-}
+namespace {
 
 cv::Point2d middleOf(const ChainState& state) {
   cv::Point2d middle;
@@ -13,6 +10,12 @@ cv::Point2d middleOf(const ChainState& state) {
     middle += part.position / static_cast<double>(state.parts.size());
   }
   return middle;
+}
+
+}  // namespace
+
+Similarity rigidMotion(double angle, const cv::Point2d& center, const cv::Point2d& target) {
+  return {angle, 1.0, target - Similarity{angle, 1.0, {}}.apply(center)};
 }
 
 void moveSegment(const Similarity& motion, size_t segment, ChainState& state) {

@@ -10,12 +10,9 @@ namespace chain_tracker {
 /// By `angle` [rad] about `center` [px], which moves to `target` [px].
 Similarity rigidMotion(double angle, const cv::Point2d& center, const cv::Point2d& target);
 
-/// The mean of the object's parts [px]; there must be some.
-cv::Point2d middleOf(const ChainState& state);
-
 void moveSegment(const Similarity& motion, size_t segment, ChainState& state);
 
-/// About its middle [rad].
+/// About the mean of its parts [rad].
 void turnWhole(double angle, ChainState& state);
 
 }  // namespace chain_tracker

@@ -67,9 +67,10 @@ class Search {
     size_t part = 0;
     for (const SegmentLayout& layout : layout_.segments) {
       RigidSegment segment;
+      segment.side = layout.parts.front().side;
       segment.pose = {layout.image_from_segment.angle, 1.0};
       for (const PartLayout& own : layout.parts) {
-        segment.voters.push_back({layout.image_from_segment.apply(own.position), own.side,
+        segment.voters.push_back({layout.image_from_segment.apply(own.position),
                                   appearance_.part(part++, 0.0).colors, 4.0});
       }
       segments.push_back(segment);
