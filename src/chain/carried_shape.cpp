@@ -82,6 +82,7 @@ CarriedShape::CarriedShape(const SegmentLayout& segment)
 std::vector<CarriedPoint> CarriedShape::points(const SegmentState& segment,
                                                const std::vector<PartState>& parts) const {
   std::vector<CarriedPoint> points;
+  points.reserve(anchors_.size());
   for (const Anchor& anchor : anchors_) {
     if (!deformable_) {
       const PartState& part = parts[anchor.part];

@@ -1,32 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/chain/chain_edges.h"
 
-#include <utility>
-
 namespace chain_tracker {
 
 ChainEdges::ChainEdges(const std::vector<EdgeStencil>& edges) {
-  for (const EdgeStencil& edge : edges) addEdge(addKind(edge));
+  for (const EdgeStencil& edge : edges) {
+    addEdge(kinds());
+    addKind() = edge;
+  }
 }
 
-size_t ChainEdges::addKind(EdgeStencil stencil) {
-  stencils_.push_back(std::move(stencil));
-  return stencils_.size() - 1;
+void ChainEdges::clear() {
+  kinds_ = 0;
+  kind_of_edge_.clear();
+}
+
+EdgeStencil& ChainEdges::addKind() {
+  if (kinds_ == stencils_.size()) stencils_.emplace_back();
+  EdgeStencil& stencil = stencils_[kinds_++];
+  stencil.clear();
+  return stencil;
 }
 
 void ChainEdges::append(const ChainEdges& edges) {
-  const size_t first = stencils_.size();
-  stencils_.insert(stencils_.end(), edges.stencils_.begin(), edges.stencils_.end());
-  for (size_t kind : edges.kinds_) addEdge(first + kind);
+  const size_t first = kinds_;
+  for (size_t kind = 0; kind < edges.kinds_; ++kind) addKind() = edges.stencils_[kind];
+  for (size_t kind : edges.kind_of_edge_) addEdge(first + kind);
 }
 
-ChainEdges ChainEdges::reversed() const {
-  ChainEdges backward;
-  for (const EdgeStencil& stencil : stencils_) {
-    backward.addKind(chain_tracker::reversed(stencil));
+void ChainEdges::assignReversed(const ChainEdges& edges) {
+  clear();
+  for (size_t kind = 0; kind < edges.kinds_; ++kind) {
+    EdgeStencil& stencil = addKind();
+    stencil = edges.stencils_[kind];
+    reverse(stencil);
   }
-  backward.kinds_.assign(kinds_.rbegin(), kinds_.rend());
-  return backward;
+  kind_of_edge_.assign(edges.kind_of_edge_.rbegin(), edges.kind_of_edge_.rend());
 }
 
 }  // namespace chain_tracker

@@ -92,20 +92,16 @@ RefinedPart refinePart(const SegmentCandidates& candidates, std::size_t node,
 }
 
 /// The segments' chains as one; the joint between two segments is one node.
-struct JoinedChain {
-  std::vector<cv::Mat1f> costs;
-  ChainEdges edges;
-};
-
-JoinedChain join(const std::vector<SegmentLayout>& segments, const std::vector<SegmentPose>& poses,
-                 const std::vector<SegmentCandidates>& candidates) {
-  JoinedChain chain;
+void join(const std::vector<SegmentLayout>& segments, const std::vector<SegmentPose>& poses,
+          const std::vector<SegmentCandidates>& candidates, ChainRefinementWorkspace& chain) {
+  chain.edges.clear();
+  chain.costs.clear();
   for (std::size_t m = 0; m < segments.size(); ++m) {
-    chain.edges.append(sampleEdges(segments[m], candidates[m], poses[m]));
+    chain.sampler.sample(segments[m], candidates[m], poses[m], chain.segment_edges);
+    chain.edges.append(chain.segment_edges);
     const auto own = candidates[m].costs.begin() + (segments[m].entry ? 1 : 0);
     chain.costs.insert(chain.costs.end(), own, candidates[m].costs.end());
   }
-  return chain;
 }
 
 }  // namespace
@@ -113,14 +109,16 @@ JoinedChain join(const std::vector<SegmentLayout>& segments, const std::vector<S
 std::vector<RefinedPart> refineChain(const std::vector<SegmentLayout>& segments,
                                      const std::vector<SegmentPose>& poses,
                                      const std::vector<SegmentCandidates>& candidates,
-                                     ChainSolverWorkspace& workspace) {
-  const JoinedChain chain = join(segments, poses, candidates);
-  if (!std::isfinite(forwardPass(chain.costs, chain.edges, workspace))) return {};
-  const cv::Point end = cheapestState(workspace.forward.back());
-  const std::vector<cv::Point> states = traceBack(chain.edges, end, workspace);
-  std::vector<cv::Mat1f> marginals;
-  minMarginals(chain.costs, chain.edges, marginals, workspace);
+                                     ChainRefinementWorkspace& workspace) {
+  ChainSolverWorkspace& solver = workspace.solver;
+  join(segments, poses, candidates, workspace);
+  if (!std::isfinite(forwardPass(workspace.costs, workspace.edges, solver))) return {};
+  const cv::Point end = cheapestState(solver.forward.back());
+  const std::vector<cv::Point> states = traceBack(workspace.edges, end, solver);
+  const std::vector<cv::Mat1f>& marginals = workspace.marginals;
+  minMarginals(workspace.costs, workspace.edges, workspace.marginals, solver);
   std::vector<RefinedPart> parts;
+  parts.reserve(workspace.costs.size());
   std::size_t first = 0;  // node of the joined chain at which the segment begins
   for (std::size_t m = 0; m < segments.size(); ++m) {
     const std::size_t joint = segments[m].entry ? 1 : 0;

@@ -7,7 +7,6 @@
 
 #include "rest_shape.h"
 #include "robust_costs.h"
-#include "segment_candidates.h"
 #include "segment_fit.h"
 #include "state_motion.h"
 #include "stopwatch.h"
@@ -54,6 +53,7 @@ std::vector<double> rememberedTurns(const std::vector<EdgeLayout>& edges, double
 
 std::vector<SegmentPose> posesOf(const ChainState& state) {
   std::vector<SegmentPose> poses;
+  poses.reserve(state.segments.size());
   for (const SegmentState& segment : state.segments) {
     poses.push_back({segment.image_from_segment.angle, segment.image_from_segment.scale});
   }
@@ -81,20 +81,11 @@ PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
 std::vector<SegmentPose> interpolatedPoses(const std::vector<PoseGrid>& grids,
                                            const ChainMatch& match) {
   std::vector<SegmentPose> poses;
+  poses.reserve(grids.size());
   for (size_t m = 0; m < grids.size(); ++m) {
     poses.push_back(interpolatePose(grids[m], match.segments[m].energies));
   }
   return poses;
-}
-
-/// Enough to tell poses apart.
-std::vector<SegmentCandidates> middlesOf(const std::vector<SegmentCandidates>& segments) {
-  std::vector<SegmentCandidates> middles;
-  middles.reserve(segments.size());
-  for (const SegmentCandidates& segment : segments) {
-    middles.push_back(middleStates(segment, kPoseStates));
-  }
-  return middles;
 }
 
 }  // namespace
@@ -107,7 +98,11 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       expectations_(appearance_, model.appearance, initial.parts.size()),
       overlaps_(initial.parts),
       placement_search_(model.appearance, image.size()),
-      pixels_(appearance_.palette()) {
+      coarse_(layout.segments.size()),
+      fine_(layout.segments.size()),
+      middles_(layout.segments.size()),
+      pixels_(appearance_.palette()),
+      looks_(layout.segments.size()) {
   for (const PartState& part : initial.parts) initial_orientations_.push_back(part.orientation);
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentLayout& segment = layout_[m];
@@ -128,16 +123,16 @@ FoundChain ChainSearch::find(const ChainState& sought, const SearchRange& range)
   found.state.confidence = 0.0;
   found.state.times = StepTimes();
   StepTimes& times = found.state.times;
-  const Candidates coarse = coarseCandidates();
+  lookCoarsely();
   times.part_costs = watch.lap();
-  const ChainMatch match = matched(coarse.poses, coarse.segments, coarse_workspace_);
+  const ChainMatch match = matched(coarse_.poses, coarse_.segments, coarse_workspace_);
   times.matching = watch.lap();
   if (!match.found()) return found;
-  edge_costs_ = edgeCosts(coarse, match);
-  const Candidates fine = fineCandidates(coarse, match);
-  const ChainMatch finest = matched(fine.poses, middlesOf(fine.segments), pose_workspace_);
+  keepEdgeCosts(match);
+  lookFinely(match);
+  const ChainMatch finest = matchFinePoses();
   if (finest.found()) {
-    settle(interpolatedPoses(fine.poses, finest), fine.segments, found);
+    settle(interpolatedPoses(fine_.poses, finest), found);
     found.state.energy = finest.energy;
   }
   times.refinement = watch.lap();
@@ -201,6 +196,7 @@ std::vector<cv::Point2d> ChainSearch::nodePositions(const ChainState& state, siz
   const SegmentState& segment_state = state.segments[m];
   const auto first = state.parts.begin() + segment_state.first_part;
   std::vector<cv::Point2d> positions;
+  positions.reserve(segment.edges.size() + 1);
   if (segment.entry) positions.push_back(jointPosition(state, m - 1));
   for (auto part = first; part != first + segment_state.part_count; ++part) {
     positions.push_back(part->position);
@@ -247,109 +243,121 @@ void ChainSearch::relaxSprings(const ChainState& state) {
 }
 
 /// Around where the nodes are believed to be.
-ChainSearch::Candidates ChainSearch::coarseCandidates() {
+void ChainSearch::lookCoarsely() {
   NodePositions centers;
   for (size_t m = 0; m < segments(); ++m) centers.push_back(nodePositions(sought_, m));
   const int step = coarseStep(smallestSide(previous_), range_.radius);
   const double radius = std::min(range_.radius, kWidestReach * step);
-  Candidates coarse = candidatesAround(centers, previous_, step, radius, Stage::kCoarse);
-  robustify(coarse);
+  lookAround(centers, previous_, step, radius, Stage::kCoarse, coarse_);
+  robustify(coarse_);
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentModel& model = model_.segments[m];
-    coarse.poses.push_back({previous_[m], model.orientation_hypotheses, model.orientation_step,
-                            model.scale_hypotheses, model.scale_step});
+    coarse_.poses[m] = {previous_[m], model.orientation_hypotheses, model.orientation_step,
+                        model.scale_hypotheses, model.scale_step};
   }
-  return coarse;
 }
 
 /// Up to a coarse step around the coarse match.
-ChainSearch::Candidates ChainSearch::fineCandidates(const Candidates& coarse,
-                                                    const ChainMatch& match) {
-  const std::vector<SegmentPose> poses = interpolatedPoses(coarse.poses, match);
+void ChainSearch::lookFinely(const ChainMatch& coarse_match) {
+  const std::vector<SegmentPose> poses = interpolatedPoses(coarse_.poses, coarse_match);
   NodePositions centers(segments());
   for (size_t m = 0; m < segments(); ++m) {
-    const std::vector<cv::Point>& states = match.segments[m].states;
+    const std::vector<cv::Point>& states = coarse_match.segments[m].states;
+    centers[m].reserve(states.size());
     for (size_t k = 0; k < states.size(); ++k) {
-      centers[m].push_back(coarse.segments[m].positionOf(k, cv::Point2d(states[k])));
+      centers[m].push_back(coarse_.segments[m].positionOf(k, cv::Point2d(states[k])));
     }
   }
-  const int coarse_step = coarse.segments.front().step;
+  const int coarse_step = coarse_.segments.front().step;
   const int step = (coarse_step + kRefinedSteps - 1) / kRefinedSteps;
   const int reach = std::max(kLeastReach, coarse_step + step);
-  Candidates fine = candidatesAround(centers, poses, step, reach, Stage::kFine);
+  lookAround(centers, poses, step, reach, Stage::kFine, fine_);
   for (size_t m = 0; m < segments(); ++m) {
-    fine.poses.push_back(finePoses(model_.segments[m], poses[m]));
+    fine_.poses[m] = finePoses(model_.segments[m], poses[m]);
   }
-  return fine;
 }
 
-ChainSearch::Candidates ChainSearch::candidatesAround(const NodePositions& centers,
-                                                      const std::vector<SegmentPose>& poses,
-                                                      int step, double radius, Stage stage) {
-  Candidates candidates;
+void ChainSearch::lookAround(const NodePositions& centers, const std::vector<SegmentPose>& poses,
+                             int step, double radius, Stage stage, Candidates& candidates) {
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentLayout& segment = layout_[m];
     const auto first = centers[m].begin() + (segment.entry ? 1 : 0);
     const std::vector<cv::Point2d> parts(first, first + static_cast<int>(segment.parts.size()));
-    candidates.grids.push_back(makeCandidateGrid(parts, sideOf(m, poses[m].scale), step, radius));
-    candidates.segments.push_back(candidatesOf(segment, candidates.grids[m], centers[m].back()));
+    candidates.grids[m] = makeCandidateGrid(parts, sideOf(m, poses[m].scale), step, radius);
+    placeCandidates(segment, candidates.grids[m], centers[m].back(), candidates.segments[m]);
     if (m > 0) {
       candidates.segments[m].origins.front() = candidates.segments[m - 1].origins.back();
     }
     computeCosts(m, wrapAngle(poses[m].orientation - previous_[m].orientation), stage, candidates);
+    joinCosts(m, candidates);
   }
-  return candidates;
 }
 
 /// `turn`: of the segment from where it is sought [rad].
-void ChainSearch::computeCosts(size_t m, double turn, Stage stage, Candidates& candidates) {
-  const SegmentLayout& segment = layout_[m];
-  const CandidateGrid& grid = candidates.grids[m];
+const ChainSearch::Looks& ChainSearch::looksOf(size_t m, double turn) {
+  const size_t parts = layout_[m].parts.size();
   const auto first_part = static_cast<size_t>(sought_.segments[m].first_part);
-  std::vector<RootHistogram> colors;
-  std::vector<RootHistogram> edges;
-  std::vector<WindowTexture> textures;
-  for (size_t k = first_part; k < first_part + segment.parts.size(); ++k) {
-    const PartAppearance& part = appearance_.part(k, wrapAngle(turnOf(sought_, k) + turn));
-    colors.push_back(part.colors);
-    edges.push_back(part.edges);
-    textures.push_back(part.texture);
+  Looks& looks = looks_[m];
+  looks.colors.resize(parts);
+  looks.edges.resize(parts);
+  looks.textures.resize(parts);
+  for (size_t k = 0; k < parts; ++k) {
+    const size_t part = first_part + k;
+    const PartAppearance& learned = appearance_.part(part, wrapAngle(turnOf(sought_, part) + turn));
+    looks.colors[k] = learned.colors;
+    looks.edges[k] = learned.edges;
+    looks.textures[k] = learned.texture;
   }
-  std::vector<cv::Mat1f>& costs = candidates.segments[m].costs;
+  return looks;
+}
+
+void ChainSearch::computeCosts(size_t m, double turn, Stage stage, Candidates& candidates) {
+  const Looks& looks = looksOf(m, turn);
+  const CandidateGrid& grid = candidates.grids[m];
+  std::vector<cv::Mat1f>& costs = candidates.part_costs[m];
   const AppearanceModel& model = model_.appearance;
-  computePartCosts(pixels_, Channel::kColors, colors, grid, model.weight, costs, color_workspace_);
+  computePartCosts(pixels_, Channel::kColors, looks.colors, grid, model.weight, costs,
+                   color_workspace_);
   if (stage == Stage::kCoarse && model.edge_weight > 0.0) {
-    addEdgeCosts(m, edges, candidates);
+    addEdgeCosts(m, looks.edges, candidates);
   } else if (stage == Stage::kFine && model.haar_weight > 0.0) {
-    addTextureCosts(pixels_, textures, grid, model.haar_weight, costs, texture_workspace_);
+    addTextureCosts(pixels_, looks.textures, grid, model.haar_weight, costs, texture_workspace_);
   }
-  const cv::Mat1f nothing(grid.states, 0.0F);
-  if (segment.entry) costs.insert(costs.begin(), nothing);
-  if (segment.exit) costs.push_back(nothing);
 }
 
 void ChainSearch::addEdgeCosts(size_t m, const std::vector<RootHistogram>& edges,
                                Candidates& candidates) {
-  candidates.edge_costs.emplace_back();
-  std::vector<cv::Mat1f>& edge_costs = candidates.edge_costs.back();
+  std::vector<cv::Mat1f>& edge_costs = candidates.edge_costs[m];
   computePartCosts(pixels_, Channel::kEdges, edges, candidates.grids[m],
                    model_.appearance.edge_weight, edge_costs, edge_workspace_);
-  std::vector<cv::Mat1f>& costs = candidates.segments[m].costs;
+  std::vector<cv::Mat1f>& costs = candidates.part_costs[m];
   for (size_t k = 0; k < edge_costs.size(); ++k) cv::add(costs[k], edge_costs[k], costs[k]);
 }
 
+/// Of the parts and of the joints at the segment's ends.
+void ChainSearch::joinCosts(size_t m, Candidates& candidates) const {
+  const SegmentLayout& segment = layout_[m];
+  const std::vector<cv::Mat1f>& parts = candidates.part_costs[m];
+  std::vector<cv::Mat1f>& costs = candidates.segments[m].costs;
+  candidates.joint_costs.create(candidates.grids[m].states);
+  candidates.joint_costs.setTo(0.0F);
+  costs.clear();
+  if (segment.entry) costs.push_back(candidates.joint_costs);
+  costs.insert(costs.end(), parts.begin(), parts.end());
+  if (segment.exit) costs.push_back(candidates.joint_costs);
+}
+
 /// Of all parts where the chain has them.
-std::vector<double> ChainSearch::edgeCosts(const Candidates& coarse,
-                                           const ChainMatch& match) const {
-  std::vector<double> costs;
+void ChainSearch::keepEdgeCosts(const ChainMatch& coarse_match) {
+  edge_costs_.clear();
   for (size_t m = 0; m < segments(); ++m) {
     const size_t joint = layout_[m].entry ? 1 : 0;
+    const std::vector<cv::Mat1f>& costs = coarse_.edge_costs[m];
     for (size_t k = 0; k < layout_[m].parts.size(); ++k) {
-      const cv::Point& state = match.segments[m].states[joint + k];
-      costs.push_back(coarse.edge_costs.empty() ? 0.0 : coarse.edge_costs[m][k](state));
+      const cv::Point& state = coarse_match.segments[m].states[joint + k];
+      edge_costs_.push_back(costs.empty() ? 0.0 : costs[k](state));
     }
   }
-  return costs;
 }
 
 /// Of the coarse stage alone: the fine one looks around the parts, where nothing else is near
@@ -378,16 +386,23 @@ double ChainSearch::turnOf(const ChainState& state, size_t part) const {
 
 ChainMatch ChainSearch::matched(const std::vector<PoseGrid>& poses,
                                 const std::vector<SegmentCandidates>& candidates,
-                                ChainSolverWorkspace& workspace) const {
+                                ChainMatcherWorkspace& workspace) const {
   return matchChain({layout_, model_, previous_, poses, candidates}, workspace);
+}
+
+ChainMatch ChainSearch::matchFinePoses() {
+  for (size_t m = 0; m < segments(); ++m) {
+    takeMiddleStates(fine_.segments[m], kPoseStates, middles_[m]);
+  }
+  return matched(fine_.poses, middles_, pose_workspace_);
 }
 
 /// The parts tell the poses more exactly than the energies of a few poses do, but their springs
 /// hold them near the poses these were laid for: so they are laid once more.
-void ChainSearch::settle(std::vector<SegmentPose> poses,
-                         const std::vector<SegmentCandidates>& candidates, FoundChain& found) {
+void ChainSearch::settle(std::vector<SegmentPose> poses, FoundChain& found) {
   for (int i = 0; i < kFits; ++i) {
-    const std::vector<RefinedPart> parts = refineChain(layout_, poses, candidates, fine_workspace_);
+    const std::vector<RefinedPart> parts =
+        refineChain(layout_, poses, fine_.segments, fine_workspace_);
     if (parts.empty()) return;
     fillIn(parts, poses, found.state);
     found.likeness = likeness(parts, found.state.parts);

@@ -16,6 +16,7 @@
 #include "chain_tracker/chain/object_appearance.h"
 #include "chain_tracker/chain/part_costs.h"
 #include "chain_tracker/chain/pose_grid.h"
+#include "chain_tracker/chain/segment_candidates.h"
 #include "chain_tracker/chain/texture_costs.h"
 #include "part_expectations.h"
 #include "part_overlaps.h"
@@ -65,10 +66,20 @@ class ChainSearch {
   enum class Stage { kCoarse, kFine };
   /// What is looked at: one entry a segment.
   struct Candidates {
+    explicit Candidates(size_t count)
+        : grids(count), segments(count), part_costs(count), edge_costs(count), poses(count) {}
     std::vector<CandidateGrid> grids;
     std::vector<SegmentCandidates> segments;
+    std::vector<std::vector<cv::Mat1f>> part_costs;  ///< of all channels; the segments' have views
     std::vector<std::vector<cv::Mat1f>> edge_costs;  ///< of the parts, in the coarse stage
     std::vector<PoseGrid> poses;
+    cv::Mat1f joint_costs;  ///< none
+  };
+  /// Of the parts of a segment, as it is turned.
+  struct Looks {
+    std::vector<RootHistogram> colors;
+    std::vector<RootHistogram> edges;
+    std::vector<WindowTexture> textures;
   };
   /// Of the nodes of each segment.
   using NodePositions = std::vector<std::vector<cv::Point2d>>;
@@ -81,22 +92,24 @@ class ChainSearch {
   std::vector<bool> nodesHidden(const ChainState& state, size_t m) const;
   void relaxSprings(const ChainState& state);
 
-  Candidates coarseCandidates();
-  Candidates fineCandidates(const Candidates& coarse, const ChainMatch& match);
-  Candidates candidatesAround(const NodePositions& centers, const std::vector<SegmentPose>& poses,
-                              int step, double radius, Stage stage);
+  void lookCoarsely();
+  void lookFinely(const ChainMatch& coarse_match);
+  void lookAround(const NodePositions& centers, const std::vector<SegmentPose>& poses, int step,
+                  double radius, Stage stage, Candidates& candidates);
+  const Looks& looksOf(size_t m, double turn);
   void computeCosts(size_t m, double turn, Stage stage, Candidates& candidates);
   void addEdgeCosts(size_t m, const std::vector<RootHistogram>& edges, Candidates& candidates);
-  std::vector<double> edgeCosts(const Candidates& coarse, const ChainMatch& match) const;
+  void joinCosts(size_t m, Candidates& candidates) const;
+  void keepEdgeCosts(const ChainMatch& coarse_match);
   void robustify(Candidates& candidates) const;
   double turnOf(const ChainState& state, size_t part) const;
   std::vector<Similarity> placements(const ChainState& sought, double reach);
   std::vector<Voter> votersOf(const ChainState& state, size_t m);
   ChainMatch matched(const std::vector<PoseGrid>& poses,
                      const std::vector<SegmentCandidates>& candidates,
-                     ChainSolverWorkspace& workspace) const;
-  void settle(std::vector<SegmentPose> poses, const std::vector<SegmentCandidates>& candidates,
-              FoundChain& found);
+                     ChainMatcherWorkspace& workspace) const;
+  ChainMatch matchFinePoses();
+  void settle(std::vector<SegmentPose> poses, FoundChain& found);
   double likeness(const std::vector<RefinedPart>& refined,
                   const std::vector<PartState>& parts) const;
   void fillIn(const std::vector<RefinedPart>& parts, const std::vector<SegmentPose>& poses,
@@ -115,16 +128,20 @@ class ChainSearch {
   ChainState sought_;
   std::vector<SegmentPose> previous_;
   SearchRange range_;
-  std::vector<double> edge_costs_;  // of the parts where the coarse search found them
+  Candidates coarse_;
+  Candidates fine_;
+  std::vector<SegmentCandidates> middles_;  // of the fine ones, enough to tell poses apart
+  std::vector<double> edge_costs_;          // of the parts where the coarse search found them
 
   FramePixels pixels_;
   PartCostsWorkspace color_workspace_;
   PartCostsWorkspace edge_workspace_;
   TextureCostsWorkspace texture_workspace_;
+  std::vector<Looks> looks_;  // of the segments
   // One for each number of states, which would else be allocated anew.
-  ChainSolverWorkspace coarse_workspace_;
-  ChainSolverWorkspace pose_workspace_;
-  ChainSolverWorkspace fine_workspace_;
+  ChainMatcherWorkspace coarse_workspace_;
+  ChainMatcherWorkspace pose_workspace_;
+  ChainRefinementWorkspace fine_workspace_;
 };
 
 }  // namespace chain_tracker

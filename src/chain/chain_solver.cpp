@@ -67,8 +67,8 @@ std::vector<cv::Point> traceBack(const ChainEdges& edges, const cv::Point& end,
 void minMarginals(const std::vector<cv::Mat1f>& unary, const ChainEdges& edges,
                   std::vector<cv::Mat1f>& marginals, ChainSolverWorkspace& workspace) {
   const size_t parts = unary.size();
-  const ChainEdges backward = edges.reversed();
   marginals.resize(parts);
+  workspace.backward_edges.assignReversed(edges);
   workspace.backward.resize(parts);
   workspace.zeros.create(unary.front().size());
   workspace.zeros.setTo(0.0F);
@@ -76,7 +76,7 @@ void minMarginals(const std::vector<cv::Mat1f>& unary, const ChainEdges& edges,
   unary.back().copyTo(workspace.sum);
   for (size_t k = parts - 1; k > 0; --k) {
     cv::Mat1f& message = workspace.backward[k - 1];
-    workspace.convolution.setStencil(backward[parts - 1 - k], unary[k].size());
+    workspace.convolution.setStencil(workspace.backward_edges[parts - 1 - k], unary[k].size());
     workspace.convolution.run(workspace.sum, workspace.zeros, message);
     cv::add(workspace.forward[k - 1], message, marginals[k - 1]);
     cv::add(unary[k - 1], message, workspace.sum);

@@ -45,11 +45,16 @@ cv::Rect2d cutOffBounds(const EdgePotential& potential) {
   const double low = std::max(0.0, potential.length - kCutOffSigmas * potential.length_sigma);
   const double high = potential.length + kCutOffSigmas * potential.length_sigma;
   const double spread = std::min(CV_PI, kCutOffSigmas * potential.direction_sigma);
-  std::vector<cv::Point2d> extremes;
+  const auto at = [](double radius, double angle) {
+    return cv::Point2d(radius * std::cos(angle), radius * std::sin(angle));
+  };
+  cv::Point2d least = at(low, potential.direction);
+  cv::Point2d most = least;
   const auto add = [&](double angle) {
-    const cv::Point2d unit(std::cos(angle), std::sin(angle));
-    extremes.push_back(low * unit);
-    extremes.push_back(high * unit);
+    for (const cv::Point2d& extreme : {at(low, angle), at(high, angle)}) {
+      least = {std::min(least.x, extreme.x), std::min(least.y, extreme.y)};
+      most = {std::max(most.x, extreme.x), std::max(most.y, extreme.y)};
+    }
   };
   add(potential.direction - spread);
   add(potential.direction + spread);
@@ -57,7 +62,7 @@ cv::Rect2d cutOffBounds(const EdgePotential& potential) {
     const double axis = quarter * CV_PI / 2.0;
     if (std::abs(wrapAngle(axis - potential.direction)) <= spread) add(axis);
   }
-  return uprightBounds(extremes);
+  return {least, most};
 }
 
 /// For springs so stiff that the lattice misses their cut-off.
@@ -90,7 +95,8 @@ EdgePotential onLattice(EdgePotential potential, double step) {
   return potential;
 }
 
-EdgeStencil sampleEdge(const EdgePotential& potential, int step, const cv::Point2d& shift) {
+void sampleEdge(const EdgePotential& potential, int step, const cv::Point2d& shift,
+                EdgeStencil& stencil) {
   const cv::Rect2d bounds = cutOffBounds(potential) - shift;
   // One step more than the bounds, which are rounded; the loop looks at each offset exactly.
   const auto first = [&](double low) { return static_cast<int>(std::floor(low / step)); };
@@ -99,7 +105,7 @@ EdgeStencil sampleEdge(const EdgePotential& potential, int step, const cv::Point
   // Spares most offsets the arc tangent, which costs more than all else here.
   const double widest_turn = std::min(CV_PI, kCutOffSigmas * potential.direction_sigma);
   const double least_cosine = std::cos(widest_turn) - kCosineSlack;
-  EdgeStencil stencil;
+  stencil.clear();
   stencil.reserve(static_cast<size_t>(bounds.area() / (step * step)) + 1);
   for (int rows = first(bounds.y); rows <= last(bounds.br().y); ++rows) {
     for (int columns = first(bounds.x); columns <= last(bounds.br().x); ++columns) {
@@ -114,12 +120,11 @@ EdgeStencil sampleEdge(const EdgePotential& potential, int step, const cv::Point
     }
   }
   if (stencil.empty()) stencil.push_back(cheapestOffset(potential, step, shift));
-  return stencil;
 }
 
-EdgeStencil betweenStates(const EdgeStencil& stencil, const cv::Point& origin,
-                          const cv::Size& reach) {
-  EdgeStencil shifted;
+void betweenStates(const EdgeStencil& stencil, const cv::Point& origin, const cv::Size& reach,
+                   EdgeStencil& shifted) {
+  shifted.clear();
   shifted.reserve(stencil.size());
   for (const StencilOffset& offset : stencil) {
     const int columns = offset.columns - origin.x;
@@ -127,15 +132,13 @@ EdgeStencil betweenStates(const EdgeStencil& stencil, const cv::Point& origin,
     if (std::abs(columns) > reach.width || std::abs(rows) > reach.height) continue;
     shifted.push_back({columns, rows, offset.cost});
   }
-  return shifted;
 }
 
-EdgeStencil reversed(EdgeStencil stencil) {
+void reverse(EdgeStencil& stencil) {
   for (StencilOffset& offset : stencil) {
     offset.columns = -offset.columns;
     offset.rows = -offset.rows;
   }
-  return stencil;
 }
 
 }  // namespace chain_tracker

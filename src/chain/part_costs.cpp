@@ -32,6 +32,9 @@ void computeCostRow(const LearnedCode* codes, size_t count, float weight, float*
   }
 }
 
+/// Codes of a part that fit on the stack.
+constexpr size_t kFewCodes = 64;
+
 /// A window's other codes do not touch the part's costs.
 void markCodes(const RootHistogram& part, std::vector<bool>& wanted) {
   for (size_t code = 0; code < part.size(); ++code) {
@@ -42,14 +45,17 @@ void markCodes(const RootHistogram& part, std::vector<bool>& wanted) {
 /// `side`: of the windows [px].
 void computePartCost(const std::vector<cv::Mat1i>& counts, const RootHistogram& part,
                      const cv::Point& corner, int side, float weight, cv::Mat1f& cost) {
-  std::vector<LearnedCode> codes;
+  cv::AutoBuffer<LearnedCode, kFewCodes> codes(part.size());
+  size_t count = 0;
   for (size_t code = 0; code < part.size(); ++code) {
     if (part[code] == 0.0F) continue;
-    codes.push_back({code, part[code] / static_cast<float>(side), nullptr});
+    codes[count++] = {code, part[code] / static_cast<float>(side), nullptr};
   }
   for (int row = 0; row < cost.rows; ++row) {
-    for (LearnedCode& code : codes) code.seen = counts[code.code][corner.y + row] + corner.x;
-    computeCostRow(codes.data(), codes.size(), weight, cost[row], cost.cols);
+    for (size_t i = 0; i < count; ++i) {
+      codes[i].seen = counts[codes[i].code][corner.y + row] + corner.x;
+    }
+    computeCostRow(codes.data(), count, weight, cost[row], cost.cols);
   }
 }
 
@@ -80,6 +86,7 @@ CandidateGrid makeCandidateGrid(const std::vector<cv::Point2d>& centers, double 
   const auto corner = [&](double center, double first_center) {
     return std::max(0, static_cast<int>(std::lround((center - first_center) / step)) - reach);
   };
+  grid.corners.reserve(centers.size());
   for (const cv::Point2d& center : centers) {
     grid.corners.emplace_back(corner(center.x, first.x), corner(center.y, first.y));
   }
@@ -95,10 +102,10 @@ void computePartCosts(FramePixels& pixels, Channel channel, const std::vector<Ro
                       const CandidateGrid& grid, double weight, std::vector<cv::Mat1f>& costs,
                       PartCostsWorkspace& workspace) {
   const bool is_sparse = grid.isSparse();
-  const auto size = static_cast<size_t>(pixels.codeCount(channel));
+  std::vector<bool>& wanted = workspace.wanted;
+  wanted.assign(static_cast<size_t>(pixels.codeCount(channel)), false);
   const int side = grid.lattice.window_cells * grid.lattice.step;
   if (!is_sparse) {
-    std::vector<bool> wanted(size, false);
     for (const RootHistogram& part : parts) markCodes(part, wanted);
     computeWindowHistograms(pixels, channel, grid.lattice, wanted, workspace.counts,
                             workspace.histograms);
@@ -106,7 +113,7 @@ void computePartCosts(FramePixels& pixels, Channel channel, const std::vector<Ro
   costs.resize(parts.size());
   for (size_t k = 0; k < parts.size(); ++k) {
     if (is_sparse) {
-      std::vector<bool> wanted(size, false);
+      wanted.assign(wanted.size(), false);
       markCodes(parts[k], wanted);
       computeWindowHistograms(pixels, channel, grid.latticeOf(k), wanted, workspace.counts,
                               workspace.histograms);

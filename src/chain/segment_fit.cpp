@@ -46,6 +46,9 @@ Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses,
   std::vector<cv::Point2d> reference;
   std::vector<cv::Point2d> found;
   std::vector<double> weights;
+  reference.reserve(parts.size());
+  found.reserve(parts.size());
+  weights.reserve(parts.size());
   for (size_t k = 0; k < parts.size(); ++k) {
     reference.push_back(layout.parts[k].position);
     found.push_back(parts[k].position);

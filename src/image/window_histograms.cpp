@@ -16,12 +16,11 @@ constexpr int kLargestByte = std::numeric_limits<uchar>::max();
 constexpr size_t kCodes = 256;
 
 /// Codes that are counted, in their order.
-std::vector<size_t> listWanted(const std::vector<bool>& wanted) {
-  std::vector<size_t> codes;
+void listWanted(const std::vector<bool>& wanted, std::vector<size_t>& codes) {
+  codes.clear();
   for (size_t code = 0; code < wanted.size(); ++code) {
     if (wanted[code]) codes.push_back(code);
   }
-  return codes;
 }
 
 /// At (row, i * columns + column): the pixels in the cell that have the i-th wanted code. What is
@@ -140,10 +139,10 @@ void countSmallCells(const cv::Mat1b& codes, int step, const std::vector<size_t>
   }
 }
 
-/// Sums over the windows, the maps of the wanted codes side by side.
-const cv::Mat1i& sumWindows(const cv::Mat1b& codes, const WindowLattice& lattice,
-                            const std::vector<size_t>& wanted, int columns,
+/// Sums over the windows, the maps of workspace.codes side by side.
+const cv::Mat1i& sumWindows(const cv::Mat1b& codes, const WindowLattice& lattice, int columns,
                             WindowHistogramsWorkspace& workspace) {
+  const std::vector<size_t>& wanted = workspace.codes;
   const int cell_area = lattice.step * lattice.step;
   const cv::Range counted(0, columns * static_cast<int>(wanted.size()));
   const auto sum = [&](auto& plane, const auto& count) -> const cv::Mat1i& {
@@ -162,11 +161,12 @@ void computeWindowHistograms(FramePixels& pixels, Channel channel, const WindowL
                              const std::vector<bool>& wanted, std::vector<cv::Mat1i>& counts,
                              WindowHistogramsWorkspace& workspace) {
   counts.resize(wanted.size());
-  const std::vector<size_t> codes = listWanted(wanted);
+  listWanted(wanted, workspace.codes);
+  const std::vector<size_t>& codes = workspace.codes;
   if (codes.empty()) return;
   const int columns = lattice.size.width + lattice.window_cells - 1;
   const cv::Mat1i& sums =
-      sumWindows(pixels.codes(channel, lattice.pixels()), lattice, codes, columns, workspace);
+      sumWindows(pixels.codes(channel, lattice.pixels()), lattice, columns, workspace);
   for (size_t i = 0; i < codes.size(); ++i) {
     const int first = static_cast<int>(i) * columns;
     counts[codes[i]] = sums(cv::Rect({first, 0}, lattice.size));

@@ -12,9 +12,9 @@ const EdgeStencil kDown = {{0, 3, 0.5F}, {1, 3, 1.0F}};
 /// Right, down, right.
 ChainEdges someEdges() {
   ChainEdges edges;
-  const size_t right = edges.addKind(kRight);
-  const size_t down = edges.addKind(kDown);
-  for (size_t kind : {right, down, right}) edges.addEdge(kind);
+  edges.addKind() = kRight;
+  edges.addKind() = kDown;
+  for (size_t kind : {0U, 1U, 0U}) edges.addEdge(kind);
   return edges;
 }
 
@@ -50,7 +50,8 @@ TEST(ChainEdges, appendedFollowWithKindsOfTheirOwn) {
 TEST(ChainEdges, reversedRunTheOtherWay) {
   ChainEdges edges = someEdges();
   edges.append(ChainEdges(std::vector<EdgeStencil>{kDown}));
-  const ChainEdges backward = edges.reversed();
+  ChainEdges backward(std::vector<EdgeStencil>{kDown, kDown, kDown, kDown, kDown});
+  backward.assignReversed(edges);
   ASSERT_EQ(edges.size(), backward.size());
   for (size_t k = 0; k < edges.size(); ++k) {
     const EdgeStencil& there = edges[edges.size() - 1 - k];
@@ -62,6 +63,16 @@ TEST(ChainEdges, reversedRunTheOtherWay) {
       EXPECT_EQ(there[i].cost, back[i].cost) << k;
     }
   }
+}
+
+TEST(ChainEdges, clearedHaveNoTraceOfWhatWasThere) {
+  ChainEdges edges = someEdges();
+  edges.clear();
+  EXPECT_EQ(0U, edges.size());
+  EXPECT_EQ(0U, edges.kinds());
+  edges.addEdge(edges.kinds());
+  EXPECT_TRUE(edges.addKind().empty());
+  EXPECT_EQ(1U, edges.kinds());
 }
 
 }  // namespace

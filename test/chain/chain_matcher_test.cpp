@@ -13,46 +13,12 @@
 #include "support/lattice_candidates.h"
 #include "support/map_difference.h"
 #include "support/random_inputs.h"
+#include "support/spring_chain.h"
 
 namespace chain_tracker {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// A chain of the given edges, starting at the frame's origin.
-SegmentLayout chainOf(const std::vector<EdgeLayout>& edges) {
-  SegmentLayout segment;
-  segment.edges = edges;
-  segment.parts.push_back({{0.0, 0.0}, 10.0});
-  for (const EdgeLayout& edge : edges) {
-    const cv::Point2d vector(std::cos(edge.direction), std::sin(edge.direction));
-    segment.parts.push_back({segment.parts.back().position + edge.length * vector, 10.0});
-  }
-  return segment;
-}
-
-std::vector<cv::Point2d> placed(const SegmentLayout& segment, const Similarity& transform) {
-  std::vector<cv::Point2d> positions;
-  for (const PartLayout& part : segment.parts) positions.push_back(transform.apply(part.position));
-  return positions;
-}
-
-/// The springs of the model in the image, as its documentation tells them: turned and scaled with
-/// the pose, both variances widened by rounding to the lattice.
-brute_force::EdgeCost springsOf(const SegmentLayout& segment, const SegmentPose& pose,
-                                const SegmentCandidates& candidates) {
-  return [=](size_t k, const cv::Point& from, const cv::Point& to) {
-    const EdgeLayout& edge = segment.edges[k];
-    const double length = pose.scale * edge.length;
-    const double rounding = double(candidates.step) * candidates.step / 6.0;
-    const double stretch = edge.stretch_sigma * length;
-    const EdgePotential spring{
-        length, pose.orientation + edge.direction, std::sqrt(stretch * stretch + rounding),
-        std::sqrt(edge.bend_sigma * edge.bend_sigma + rounding / (length * length))};
-    return brute_force::springCost(spring, candidates.positionOf(k + 1, cv::Point2d(to)) -
-                                               candidates.positionOf(k, cv::Point2d(from)));
-  };
-}
 
 double temporalCostByHand(const SegmentModel& model, const SegmentPose& previous,
                           const SegmentPose& pose) {
@@ -63,58 +29,6 @@ double temporalCostByHand(const SegmentModel& model, const SegmentPose& previous
   const double growth_sigmas =
       (std::log(pose.scale) - std::log(previous.scale)) / model.scale_sigma;
   return 0.5 * (turn_sigmas * turn_sigmas + growth_sigmas * growth_sigmas);
-}
-
-/// All pairs of states of neighbouring parts; some edges are alike, some only nearly so.
-TEST(SampleEdges, costWhatTheSpringsCostBetweenTheCandidates) {
-  RandomInputs random(1);
-  const SegmentLayout segment = chainOf({{14.0, 0.3, 0.1, 0.2},
-                                         {11.0, CV_PI, 0.1, 0.2},
-                                         {14.0, 0.3, 0.1, 0.2},
-                                         {11.0, -CV_PI, 0.1, 0.2},
-                                         {14.0, 0.3, 0.2, 0.2},
-                                         {14.0, 0.3, 0.1, 0.3},
-                                         {14.0, 0.5, 0.1, 0.2},
-                                         {14.5, 0.3, 0.1, 0.2}});
-  for (int step : {1, 3}) {
-    const SegmentPose pose{0.7, 1.1};
-    const Similarity transform{0.6, 1.15, {50, 50}};
-    std::vector<cv::Point2d> centers = placed(segment, transform);
-    for (cv::Point2d& center : centers) center += random.point(-3.0, 3.0);
-    const CandidateGrid grid = makeCandidateGrid(centers, 10.0, step, 2.0 * step);
-    SegmentCandidates candidates = candidatesOn(grid, {});
-    candidates.origins.back() += cv::Point2d(0.3, -0.4);  // a lattice of its own
-    const ChainEdges edges = sampleEdges(segment, candidates, pose);
-    ASSERT_EQ(segment.edges.size(), edges.size());
-    const auto spring = springsOf(segment, pose, candidates);
-    for (size_t k = 0; k < edges.size(); ++k) {
-      SCOPED_TRACE("edge " + std::to_string(k) + ", step " + std::to_string(step));
-      // The first part's state is at one border or the other, so that all offsets occur.
-      int allowed = 0;
-      for (int rows = 1 - grid.states.height; rows < grid.states.height; ++rows) {
-        for (int columns = 1 - grid.states.width; columns < grid.states.width; ++columns) {
-          const cv::Point from(std::max(0, -columns), std::max(0, -rows));
-          const cv::Point offset(columns, rows);
-          const double expected = spring(k, from, from + offset);
-          const double sampled = brute_force::stencilCost(edges[k], offset);
-          if (expected == sampled) continue;  // both are forbidden
-          ASSERT_NEAR(expected, sampled, 1e-5) << offset;
-          ++allowed;
-        }
-      }
-      EXPECT_GT(allowed, 0);
-    }
-  }
-}
-
-/// Each edge is like the one before, the last one not like the first.
-TEST(SampleEdges, leaveNoEdgeOfNearlyEqualOnesOut) {
-  const SegmentLayout segment = chainOf(
-      {{14.0, 0.3, 0.1, 0.2}, {14.0, 0.3 + 0.9e-6, 0.1, 0.2}, {14.0, 0.3 + 1.8e-6, 0.1, 0.2}});
-  const CandidateGrid grid = makeCandidateGrid(placed(segment, {0.0, 1.0, {50, 50}}), 10.0, 1, 6.0);
-  const ChainEdges edges = sampleEdges(segment, candidatesOn(grid, {}), {0.0, 1.0});
-  ASSERT_EQ(3U, edges.size());
-  for (size_t k = 0; k < edges.size(); ++k) EXPECT_FALSE(edges[k].empty());
 }
 
 /// Several segments end to end, few states and poses, somewhere, with random costs.
@@ -214,9 +128,8 @@ TinyChain tinyChain(RandomInputs& random, const TinySize& size, bool limited) {
   return chain;
 }
 
-/// Every chain under every choice of poses.
-void expectGloballyOptimal(const TinyChain& chain) {
-  ChainSolverWorkspace workspace;
+/// Every chain under every choice of poses. The workspace may be that of another chain.
+void expectGloballyOptimal(const TinyChain& chain, ChainMatcherWorkspace& workspace) {
   const ChainMatch found = matchChain(chain.problem(), workspace);
   std::vector<cv::Mat1d> energies;
   size_t choices = 1;
@@ -266,23 +179,25 @@ void expectGloballyOptimal(const TinyChain& chain) {
 
 TEST(MatchChain, isGloballyOptimalForOneSegment) {
   RandomInputs random(2);
+  ChainMatcherWorkspace workspace;
   for (int repeat = 0; repeat < 8; ++repeat) {
     SCOPED_TRACE("three parts, repeat " + std::to_string(repeat));
-    expectGloballyOptimal(tinyChain(random, {{2}, 5, 3, 2}, false));
+    expectGloballyOptimal(tinyChain(random, {{2}, 5, 3, 2}, false), workspace);
   }
   for (int repeat = 0; repeat < 8; ++repeat) {
     SCOPED_TRACE("four parts, repeat " + std::to_string(repeat));
-    expectGloballyOptimal(tinyChain(random, {{3}, 5, 3, 1}, false));
+    expectGloballyOptimal(tinyChain(random, {{3}, 5, 3, 1}, false), workspace);
   }
 }
 
 TEST(MatchChain, isGloballyOptimalForJoinedSegments) {
   RandomInputs random(4);
+  ChainMatcherWorkspace workspace;
   for (bool limited : {false, true}) {
     for (int repeat = 0; repeat < 6; ++repeat) {
       SCOPED_TRACE("limited " + std::to_string(limited) + ", repeat " + std::to_string(repeat));
-      expectGloballyOptimal(tinyChain(random, {{2, 1}, 3, 3, 1}, limited));
-      expectGloballyOptimal(tinyChain(random, {{1, 1, 1}, 3, 1, 1}, limited));
+      expectGloballyOptimal(tinyChain(random, {{2, 1}, 3, 3, 1}, limited), workspace);
+      expectGloballyOptimal(tinyChain(random, {{1, 1, 1}, 3, 1, 1}, limited), workspace);
     }
   }
 }
@@ -293,7 +208,7 @@ TEST(MatchChain, limitsTurnJointsBack) {
   int changed = 0;
   for (int repeat = 0; repeat < 10; ++repeat) {
     TinyChain chain = tinyChain(random, {{2, 2}, 5, 1, 2}, false);
-    ChainSolverWorkspace workspace;
+    ChainMatcherWorkspace workspace;
     const ChainMatch free = matchChain(chain.problem(), workspace);
     const double angle = wrapAngle(chain.previous[1].orientation - chain.previous[0].orientation);
     chain.model.joints = {{std::max(-CV_PI, angle - 0.01), std::min(CV_PI, angle + 0.01)}};
@@ -328,7 +243,7 @@ TEST(MatchChain, findsThePoseThatTheCostsShow) {
   const std::vector<PoseGrid> poses = {{previous[0], 5, 0.1, 3, 0.05}};
   for (size_t pose = 0; pose < poses[0].size(); ++pose) {
     const auto candidates = candidatesShowing(segments[0], poses[0].at(pose));
-    ChainSolverWorkspace workspace;
+    ChainMatcherWorkspace workspace;
     const ChainMatch match = matchChain({segments, model, previous, poses, candidates}, workspace);
     ASSERT_TRUE(match.found());
     EXPECT_EQ(pose, match.segments[0].pose);
@@ -343,7 +258,7 @@ TEST(MatchChain, findsNothingWhereNoChainIsAllowed) {
   for (const TinySize& size : {TinySize{{2}, 5, 3, 1}, TinySize{{2, 2}, 5, 3, 1}}) {
     TinyChain chain = tinyChain(random, size, false);
     chain.candidates.back().costs[1].setTo(kInfinity);
-    ChainSolverWorkspace workspace;
+    ChainMatcherWorkspace workspace;
     const ChainMatch match = matchChain(chain.problem(), workspace);
     EXPECT_FALSE(match.found());
     EXPECT_EQ(kInfinity, match.energy);

@@ -23,7 +23,7 @@ SegmentLayout onePart() {
 
 std::vector<RefinedPart> refineSegment(const SegmentLayout& segment, const CandidateGrid& grid,
                                        const std::vector<cv::Mat1f>& costs) {
-  ChainSolverWorkspace workspace;
+  ChainRefinementWorkspace workspace;
   return refineChain({segment}, {{0.0, 1.0}}, {candidatesOn(grid, costs)}, workspace);
 }
 

@@ -197,9 +197,9 @@ TEST(ChainSolver, spotIsLeftOnceStretchingCostsMore) {
 
 ChainEdges twoAlike(const EdgeStencil& stencil) {
   ChainEdges edges;
-  const size_t kind = edges.addKind(stencil);
-  edges.addEdge(kind);
-  edges.addEdge(kind);
+  edges.addKind() = stencil;
+  edges.addEdge(0);
+  edges.addEdge(0);
   return edges;
 }
 

@@ -29,11 +29,23 @@ std::string textOf(const cv::Point& offset) {
   return "offset " + std::to_string(offset.x) + ", " + std::to_string(offset.y);
 }
 
+EdgeStencil sampled(const EdgePotential& spring, int step) {
+  EdgeStencil stencil = {{1, 2, 3.0F}};  // of another spring
+  sampleEdge(spring, step, {}, stencil);
+  return stencil;
+}
+
+EdgeStencil between(const EdgeStencil& stencil, const cv::Point& origin, const cv::Size& reach) {
+  EdgeStencil shifted = {{1, 2, 3.0F}};  // of other states
+  betweenStates(stencil, origin, reach, shifted);
+  return shifted;
+}
+
 /// Every offset of a lattice larger than any spring here, one at a time: those within three
 /// standard deviations must be there once, at their cost, and no other.
 void expectAllWithinCutOff(const EdgePotential& spring, int step) {
   SCOPED_TRACE(textOf(spring, step));
-  const EdgeStencil stencil = sampleEdge(spring, step);
+  const EdgeStencil stencil = sampled(spring, step);
   const double farthest = spring.length + 3.0 * spring.length_sigma;
   const int reach = static_cast<int>(farthest / step) + 3;
   size_t wanted = 0;
@@ -114,7 +126,7 @@ TEST(SampleEdge, offsetsExactlyThreeDeviationsAwayBelong) {
   // The length and three deviations are whole numbers: nothing is rounded at the cut-off.
   for (double turn_sigma : {0.05, 0.1, 0.13, 0.2, 0.3, 0.45, 0.7, 1.5}) {
     SCOPED_TRACE(turn_sigma);
-    const EdgeStencil stencil = sampleEdge({10.0, 0.0, 1.0, turn_sigma}, 1);
+    const EdgeStencil stencil = sampled({10.0, 0.0, 1.0, turn_sigma}, 1);
     EXPECT_NEAR(4.5, brute_force::stencilCost(stencil, {13, 0}), 1e-6);
     EXPECT_NEAR(4.5, brute_force::stencilCost(stencil, {7, 0}), 1e-6);
     EXPECT_EQ(kInfinity, brute_force::stencilCost(stencil, {14, 0}));
@@ -131,7 +143,7 @@ TEST(SampleEdge, springWidenedForItsLatticeHoldsTheOffsetNearestToRest) {
     SCOPED_TRACE(textOf(stiff, step));
     const cv::Point2d rest(stiff.length * std::cos(stiff.direction),
                            stiff.length * std::sin(stiff.direction));
-    const EdgeStencil stencil = sampleEdge(onLattice(stiff, step), step);
+    const EdgeStencil stencil = sampled(onLattice(stiff, step), step);
     ASSERT_TRUE(std::isfinite(brute_force::stencilCost(stencil, cv::Point(rest / step))));
   }
 }
@@ -142,7 +154,7 @@ TEST(SampleEdge, springBetweenLatticePointsKeepsTheCheapestOne) {
     const int step = random.integer(1, 8);
     const EdgePotential spring{random.real(2.0, 30.0), random.real(-CV_PI, CV_PI), 0.002, 0.001};
     SCOPED_TRACE(textOf(spring, step));
-    const EdgeStencil stencil = sampleEdge(spring, step);
+    const EdgeStencil stencil = sampled(spring, step);
     ASSERT_EQ(1U, stencil.size());
     double least = kInfinity;
     for (int rows = -32; rows <= 32; ++rows) {
@@ -156,7 +168,7 @@ TEST(SampleEdge, springBetweenLatticePointsKeepsTheCheapestOne) {
 
 TEST(BetweenStates, countsOffsetsFromTheSecondPartsFirstState) {
   const EdgeStencil stencil = {{5, -2, 0.5F}, {6, -2, 0.25F}, {5, 0, 1.0F}};
-  const EdgeStencil shifted = betweenStates(stencil, {4, -1}, {3, 3});
+  const EdgeStencil shifted = between(stencil, {4, -1}, {3, 3});
   ASSERT_EQ(3U, shifted.size());
   EXPECT_EQ(0.5, brute_force::stencilCost(shifted, {1, -1}));
   EXPECT_EQ(0.25, brute_force::stencilCost(shifted, {2, -1}));
@@ -168,19 +180,20 @@ TEST(BetweenStates, leavesOutOffsetsThatJoinNoTwoStates) {
   for (int rows = -5; rows <= 5; ++rows) {
     for (int columns = -5; columns <= 5; ++columns) stencil.push_back({columns, rows, 1.0F});
   }
-  const EdgeStencil shifted = betweenStates(stencil, {0, 0}, {2, 3});
+  const EdgeStencil shifted = between(stencil, {0, 0}, {2, 3});
   EXPECT_EQ(5U * 7U, shifted.size());
   for (const StencilOffset& offset : shifted) {
     EXPECT_LE(std::abs(offset.columns), 2);
     EXPECT_LE(std::abs(offset.rows), 3);
   }
-  EXPECT_TRUE(betweenStates(stencil, {100, 0}, {2, 3}).empty());
+  EXPECT_TRUE(between(stencil, {100, 0}, {2, 3}).empty());
 }
 
-TEST(Reversed, sendsTheMessageTheOtherWay) {
+TEST(Reverse, sendsTheMessageTheOtherWay) {
   RandomInputs random(7);
   const EdgeStencil stencil = random.stencil(10, 4);
-  const EdgeStencil backwards = reversed(stencil);
+  EdgeStencil backwards = stencil;
+  reverse(backwards);
   ASSERT_EQ(stencil.size(), backwards.size());
   for (size_t i = 0; i < stencil.size(); ++i) {
     EXPECT_EQ(-stencil[i].columns, backwards[i].columns);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "chain/segment_candidates.h"
+#include "chain_tracker/chain/segment_candidates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,13 @@
 namespace chain_tracker {
 namespace {
 
-TEST(CandidatesOf, nodesLieWhereTheGridHasThem) {
+TEST(PlaceCandidates, nodesLieWhereTheGridHasThem) {
   ChainModel model;
   model.segment_per_edge = true;
   const std::vector<cv::Point2d> points = {{20.0, 30.0}, {120.0, 40.0}, {200.0, 90.0}};
   const std::vector<SegmentLayout> segments =
       layOut(forPolyline(model, points.size()), points).segments;
+  SegmentCandidates candidates;  // of the segment before
   for (const SegmentLayout& segment : segments) {
     std::vector<cv::Point2d> centers;
     for (const PartLayout& part : segment.parts) {
@@ -25,7 +26,7 @@ TEST(CandidatesOf, nodesLieWhereTheGridHasThem) {
     }
     const CandidateGrid grid = makeCandidateGrid(centers, 12.0, 3, 20.0);
     const cv::Point2d end(130.0, 50.0);
-    const SegmentCandidates candidates = candidatesOf(segment, grid, end);
+    placeCandidates(segment, grid, end, candidates);
     const size_t joint = segment.entry ? 1 : 0;
     ASSERT_EQ(segment.parts.size() + joint + (segment.exit ? 1 : 0), candidates.origins.size());
     EXPECT_EQ(grid.states, candidates.states);
@@ -40,15 +41,16 @@ TEST(CandidatesOf, nodesLieWhereTheGridHasThem) {
   }
 }
 
-TEST(MiddleStates, areTheSameStatesElsewhere) {
+TEST(TakeMiddleStates, areTheSameStatesElsewhere) {
   RandomInputs random(5);
   SegmentCandidates all;
   all.step = 2;
   all.states = {11, 13};
   all.origins = random.points(3, 0.0, 100.0);
   all.costs = random.costMaps(3, all.states);
+  SegmentCandidates middle;
   for (const int most : {1, 4, 12, 20}) {
-    const SegmentCandidates middle = middleStates(all, most);
+    takeMiddleStates(all, most, middle);
     EXPECT_EQ(cv::Size(std::min(most, 11), std::min(most, 13)), middle.states);
     const cv::Point first(cv::Size(all.states - middle.states) / 2);
     for (size_t k = 0; k < 3; ++k) {

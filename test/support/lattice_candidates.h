@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "chain_tracker/chain/chain_matcher.h"
 #include "chain_tracker/chain/part_costs.h"
+#include "chain_tracker/chain/segment_candidates.h"
 
 namespace chain_tracker {
 

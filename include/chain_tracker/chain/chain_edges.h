@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The stencils along a chain, of which equal ones are kept once: the edges of a grid of parts have
-/// few kinds.
+/// few kinds. Filled anew, it allocates only where it never had as many stencils or as large ones.
 #pragma once
 
 #include <cstddef>
@@ -16,20 +16,25 @@ class ChainEdges {
   /// Every edge is of a kind of its own.
   ChainEdges(const std::vector<EdgeStencil>& edges);  // NOLINT(google-explicit-constructor)
 
-  size_t size() const { return kinds_.size(); }
-  const EdgeStencil& operator[](size_t edge) const { return stencils_[kinds_[edge]]; }
-  bool areEqual(size_t a, size_t b) const { return kinds_[a] == kinds_[b]; }
+  size_t size() const { return kind_of_edge_.size(); }
+  const EdgeStencil& operator[](size_t edge) const { return stencils_[kind_of_edge_[edge]]; }
+  bool areEqual(size_t a, size_t b) const { return kind_of_edge_[a] == kind_of_edge_[b]; }
 
-  /// Returns the new kind, of which there are no edges yet.
-  size_t addKind(EdgeStencil stencil);
-  void addEdge(size_t kind) { kinds_.push_back(kind); }
+  /// Leaves no edges and no kinds.
+  void clear();
+  /// Kinds are counted from 0 in the order in which they are added.
+  size_t kinds() const { return kinds_; }
+  /// The empty stencil of a new kind, of which there are no edges yet; valid until the next one.
+  EdgeStencil& addKind();
+  void addEdge(size_t kind) { kind_of_edge_.push_back(kind); }
   void append(const ChainEdges& edges);
-  /// The same chain from its other end.
-  ChainEdges reversed() const;
+  /// Becomes the other chain from its other end.
+  void assignReversed(const ChainEdges& edges);
 
  private:
-  std::vector<EdgeStencil> stencils_;
-  std::vector<size_t> kinds_;  ///< of the edges
+  size_t kinds_ = 0;
+  std::vector<EdgeStencil> stencils_;  ///< of the kinds; the memory of others behind them is kept
+  std::vector<size_t> kind_of_edge_;
 };
 
 }  // namespace chain_tracker

@@ -15,27 +15,11 @@
 #include "chain_tracker/chain/chain_layout.h"
 #include "chain_tracker/chain/chain_model.h"
 #include "chain_tracker/chain/chain_solver.h"
+#include "chain_tracker/chain/edge_sampler.h"
 #include "chain_tracker/chain/pose_grid.h"
+#include "chain_tracker/chain/segment_candidates.h"
 
 namespace chain_tracker {
-
-/// Where the nodes of a segment may be, and what that costs. The joint between two segments has the
-/// same states in both.
-struct SegmentCandidates {
-  int step = 1;                      ///< of the lattices [px]
-  cv::Size states;                   ///< of every node: columns and rows
-  std::vector<cv::Point2d> origins;  ///< position of each node's state (0, 0) [px]
-  std::vector<cv::Mat1f> costs;      ///< of each node's states; a joint's are zero
-
-  /// Position of a node's state, which may lie between lattice points [px].
-  cv::Point2d positionOf(size_t node, const cv::Point2d& state) const {
-    return origins[node] + state * double(step);
-  }
-};
-
-/// The springs of a segment under a pose, sampled between the candidates of its nodes.
-ChainEdges sampleEdges(const SegmentLayout& segment, const SegmentCandidates& candidates,
-                       const SegmentPose& pose);
 
 /// The same segment in every argument has the same index.
 struct MatchingProblem {
@@ -58,8 +42,27 @@ struct ChainMatch {
   bool found() const { return !segments.front().states.empty(); }
 };
 
+/// [segment][pose]: a map over the states of a node.
+using PoseMaps = std::vector<std::vector<cv::Mat1f>>;
+
+/// Kept from call to call so that no memory is allocated for maps once sizes have settled.
+struct ChainMatcherWorkspace {
+  ChainSolverWorkspace solver;
+  std::vector<cv::Mat1f> best_forward;  ///< solver.forward of an earlier pass
+  EdgeSampler sampler;
+  ChainEdges edges;
+  ChainEdges best_edges;
+  ChainEdges backward_edges;
+  std::vector<cv::Mat1f> costs;  ///< of a segment's nodes
+  PoseMaps ahead;                ///< segments up to this one, which end in each state
+  PoseMaps behind;               ///< segments from this one on, which begin in each state
+  PoseMaps into;                 ///< messages to the segment from the one before
+  PoseMaps from;                 ///< messages to the segment from the one behind
+  cv::Mat1f sum;
+};
+
 /// The chain and the poses of least energy, temporal and joint costs included.
 /// O(parts x poses x states x offsets of a stencil), and O(states x poses^2) at a limited joint.
-ChainMatch matchChain(const MatchingProblem& problem, ChainSolverWorkspace& workspace);
+ChainMatch matchChain(const MatchingProblem& problem, ChainMatcherWorkspace& workspace);
 
 }  // namespace chain_tracker

@@ -16,11 +16,21 @@ struct RefinedPart {
   cv::Matx22d covariance;   ///< [px^2], from the curvature of the min-marginal; NaN if unknown
 };
 
+/// Kept from call to call so that no memory is allocated for maps once sizes have settled.
+struct ChainRefinementWorkspace {
+  ChainSolverWorkspace solver;
+  EdgeSampler sampler;
+  ChainEdges segment_edges;
+  ChainEdges edges;  ///< of all segments as one chain, in which a joint is one node
+  std::vector<cv::Mat1f> costs;
+  std::vector<cv::Mat1f> marginals;
+};
+
 /// The parts of all segments, in order, in the best chain under one pose a segment; empty if the
 /// springs allow none. O(parts x states x offsets of a stencil).
 std::vector<RefinedPart> refineChain(const std::vector<SegmentLayout>& segments,
                                      const std::vector<SegmentPose>& poses,
                                      const std::vector<SegmentCandidates>& candidates,
-                                     ChainSolverWorkspace& workspace);
+                                     ChainRefinementWorkspace& workspace);
 
 }  // namespace chain_tracker

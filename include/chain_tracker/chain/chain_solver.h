@@ -18,9 +18,9 @@ namespace chain_tracker {
 
 /// Kept from call to call so that no memory is allocated once sizes have settled.
 struct ChainSolverWorkspace {
-  std::vector<cv::Mat1f> forward;       ///< unary_k plus the message from part k - 1
-  std::vector<cv::Mat1f> best_forward;  ///< the same, of an earlier pass
-  std::vector<cv::Mat1f> backward;      ///< the message from part k + 1
+  std::vector<cv::Mat1f> forward;   ///< unary_k plus the message from part k - 1
+  std::vector<cv::Mat1f> backward;  ///< the message from part k + 1
+  ChainEdges backward_edges;
   cv::Mat1f sum;
   cv::Mat1f zeros;
   MinConvolution convolution;

@@ -38,18 +38,19 @@ struct StencilOffset {
 
 using EdgeStencil = std::vector<StencilOffset>;
 
-/// The edges within three standard deviations whose vector is a whole number of steps plus `shift`
-/// [px], and their costs; at least the cheapest one. `shift` is what separates the lattices of the
-/// two parts, less than a step. O(offsets).
-EdgeStencil sampleEdge(const EdgePotential& potential, int step, const cv::Point2d& shift = {});
+/// `stencil` becomes the edges within three standard deviations whose vector is a whole number of
+/// steps plus `shift` [px], and their costs; at least the cheapest one. `shift` is what separates
+/// the lattices of the two parts, less than a step. O(offsets).
+void sampleEdge(const EdgePotential& potential, int step, const cv::Point2d& shift,
+                EdgeStencil& stencil);
 
-/// The same offsets counted between two parts' states when the second part's state (0, 0) lies
-/// `origin` steps from the first part's. Offsets of more than `reach` columns or rows join no two
-/// states and are left out.
-EdgeStencil betweenStates(const EdgeStencil& stencil, const cv::Point& origin,
-                          const cv::Size& reach);
+/// `shifted` becomes the same offsets counted between two parts' states when the second part's
+/// state (0, 0) lies `origin` steps from the first part's. Offsets of more than `reach` columns or
+/// rows join no two states and are left out.
+void betweenStates(const EdgeStencil& stencil, const cv::Point& origin, const cv::Size& reach,
+                   EdgeStencil& shifted);
 
-/// The stencil of the same edge seen from its other end.
-EdgeStencil reversed(EdgeStencil stencil);
+/// The same edge seen from its other end.
+void reverse(EdgeStencil& stencil);
 
 }  // namespace chain_tracker

@@ -48,7 +48,9 @@ struct CandidateGrid {
 CandidateGrid makeCandidateGrid(const std::vector<cv::Point2d>& centers, double side, int step,
                                 double radius);
 
+/// Kept from call to call so that no memory is allocated once sizes have settled.
 struct PartCostsWorkspace {
+  std::vector<bool> wanted;  ///< of the codes
   std::vector<cv::Mat1i> counts;
   WindowHistogramsWorkspace histograms;
 };

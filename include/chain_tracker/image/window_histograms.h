@@ -3,7 +3,7 @@
 /// edges.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -35,8 +35,9 @@ struct WindowLattice {
 
 /// Memory that may be kept from call to call so that none is allocated.
 struct WindowHistogramsWorkspace {
-  cv::Mat1b small_cells;  ///< the counts of all wanted entries side by side
-  CellPlane cells;        ///< the same for cells of more than 255 pixels
+  std::vector<size_t> codes;  ///< those that are counted
+  cv::Mat1b small_cells;      ///< the counts of all wanted entries side by side
+  CellPlane cells;            ///< the same for cells of more than 255 pixels
   WindowSums sums;
 };
 
