@@ -13,6 +13,8 @@ namespace {
 /// Of a part to where the fit has it, of its window's side: one farther off counts less than a
 /// quarter.
 constexpr double kTolerance = 0.3;
+/// Of the log scale, where nothing tells it, to both sides of that of the first frame.
+constexpr double kScaleSpread = 0.2;
 /// Keeps the fit defined when no part is seen.
 constexpr double kSmallestWeight = 1e-3;
 
@@ -28,6 +30,25 @@ double lengthRatio(const std::vector<cv::Point2d>& reference, const std::vector<
     found_length += weight * cv::norm(found[k] - found[k - 1]);
   }
   return found_length / reference_length;
+}
+
+/// Inverse variance of the log scale in a fit of parts whose errors are independent.
+double scaleInformation(const std::vector<PartState>& parts, const cv::Point2d& center) {
+  double information = 0.0;
+  for (const PartState& part : parts) {
+    const cv::Vec2d arm = part.position - center;
+    const double length = cv::norm(arm);
+    // A part's errors towards the centre and away from it.
+    const double variance = arm.dot(part.covariance * arm) / (length * length);
+    if (variance > 0.0) information += part.confidence * length * length / variance;
+  }
+  return information;
+}
+
+/// As the parts tell it and, as far as they do not, as in the first frame.
+double remembered(double scale, double information) {
+  const double prior = 1.0 / (kScaleSpread * kScaleSpread);
+  return std::pow(scale, information / (information + prior));
 }
 
 double clampedTurn(double from, double to, double limit) {
@@ -60,7 +81,11 @@ Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses,
     weights = robustWeights(reference, found, weights, kTolerance * side);
   }
   Similarity fit = fitSimilarity(reference, found, weights);
-  if (is_deformable) fit.scale = lengthRatio(reference, found, weights);
+  if (is_deformable) {
+    fit.scale = lengthRatio(reference, found, weights);
+  } else if (poses.scales == 1) {
+    fit.scale = remembered(fit.scale, scaleInformation(parts, fit.translation));
+  }
   const double angle = clampedTurn(searched.orientation, fit.angle, 0.5 * poses.orientation_step);
   const double scale = clampedScale(searched.scale, fit.scale, 0.5 * poses.scale_step);
   return {angle, scale, fitTranslation(reference, found, weights, angle, scale)};

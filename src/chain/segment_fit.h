@@ -12,7 +12,9 @@ namespace chain_tracker {
 
 /// Least squares over the segment's parts but those that have slid off to what looks like them,
 /// weighted by confidence; at most half a step of `poses` from their middle: beyond it, the energy
-/// knows better than the parts, which lean inwards wherever the object is uniform. O(parts).
+/// knows better than the parts, which lean inwards wherever the object is uniform.
+/// A rigid segment of which a single scale is searched, so that no energy tells it, returns to that
+/// of the first frame, 1, as far as the covariances of its parts leave the scale open. O(parts).
 Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses,
                       const std::vector<PartState>& parts);
 

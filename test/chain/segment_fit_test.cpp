@@ -2,6 +2,7 @@
 #include "chain/segment_fit.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -81,6 +82,45 @@ TEST(FitSegment, isDefinedWhereNoPartIsSure) {
   const Similarity pose{0.01, 1.0, {20.0, 30.0}};
   std::vector<PartState> parts = partsAt(segment, pose);
   for (PartState& part : parts) part.confidence = 0.0;
+  expectNear(pose, fitSegment(segment, kPoses, parts));
+}
+
+/// A single scale is searched; the parts lie `scale` as far apart, with that variance [px^2].
+double scaleOfParts(double scale, double variance) {
+  const SegmentLayout segment = planarSegment();
+  const PoseGrid poses{{0.0, scale}, 3, 0.1, 1, 0.5};
+  std::vector<PartState> parts = partsAt(segment, {0.0, scale, {123.0, 45.0}});
+  for (PartState& part : parts) part.covariance = variance * cv::Matx22d::eye();
+  return fitSegment(segment, poses, parts).scale;
+}
+
+TEST(FitSegment, keepsTheScaleThatThePartsTell) {
+  EXPECT_NEAR(1.2, scaleOfParts(1.2, 0.5), 1e-3);
+  EXPECT_NEAR(0.8, scaleOfParts(0.8, 0.5), 1e-3);
+}
+
+TEST(FitSegment, returnsToTheFirstScaleWhereThePartsTellNone) {
+  EXPECT_NEAR(1.0, scaleOfParts(1.2, 1e7), 1e-3);
+  EXPECT_NEAR(1.0, scaleOfParts(0.8, 1e7), 1e-3);
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(1.0, scaleOfParts(0.8, unknown));
+}
+
+/// Half of what is known comes from the parts if their information is that of the first frame.
+TEST(FitSegment, weighsThePartsByWhatTheyTell) {
+  const SegmentLayout segment = planarSegment();
+  const double scale = 1.21;
+  double squares = 0.0;
+  for (const PartLayout& part : segment.parts) squares += part.position.dot(part.position);
+  const double variance = 0.8 * scale * scale * squares * 0.2 * 0.2;
+  EXPECT_NEAR(1.1, scaleOfParts(scale, variance), 1e-6);
+}
+
+TEST(FitSegment, leavesTheScaleToTheSearchThatTriesSeveral) {
+  const SegmentLayout segment = planarSegment();
+  const Similarity pose{0.0, 1.01, {123.0, 45.0}};
+  std::vector<PartState> parts = partsAt(segment, pose);
+  for (PartState& part : parts) part.covariance = 1e7 * cv::Matx22d::eye();
   expectNear(pose, fitSegment(segment, kPoses, parts));
 }
 
