@@ -238,7 +238,10 @@ void ChainSearch::relaxSprings(const ChainState& state) {
       edges_hidden.push_back(hidden[k] || hidden[k + 1]);
     }
     directions = restDirections(directions, edges_hidden, remembered_turns_[m]);
-    for (size_t k = 0; k < edges.size(); ++k) edges[k].direction = directions[k];
+    for (size_t k = 0; k < edges.size(); ++k) {
+      edges[k].direction = directions[k];
+      edges[k].bend_sigma = range_.looseness * model_.segments[m].bend_sigma;
+    }
   }
 }
 

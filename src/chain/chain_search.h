@@ -27,6 +27,7 @@ namespace chain_tracker {
 struct SearchRange {
   double radius = 0.0;         ///< of a part around where it is sought [px]
   double travel_weight = 0.0;  ///< cost of a part for every pixel from there
+  double looseness = 1.0;      ///< of what bends anywhere: so much more than between two frames
 };
 
 /// What a search has found.

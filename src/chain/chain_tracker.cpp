@@ -29,6 +29,14 @@ constexpr double kLeastTurn = 0.4;
 constexpr double kMostHidden = 0.1;
 /// Of the usual likeness: a state that is trusted to be right.
 constexpr double kTrusted = 0.8;
+/// Of the usual likeness: a line that was in doubt is so until it looks like that. Found again
+/// shifted along itself it looks much like the object, but does not slide back by itself.
+constexpr double kReassuring = 0.85;
+/// A line that is found again may have bent by so much more than between two frames, and that in up
+/// to so many steps, as long as each makes it look more as learned by kLeastGain.
+constexpr double kLoose = 3.0;
+constexpr int kRefits = 4;
+constexpr double kLeastGain = 0.01;
 
 }  // namespace
 
@@ -134,7 +142,15 @@ class ChainTracker::Implementation {
   }
 
   bool isDoubtful(const FoundChain& found) const {
-    return found.likeness < model_.search.doubt_below * search_.expectations().usualLikeness();
+    const bool must_reassure = isLine() && frames_doubted_ > 0;
+    const double least = must_reassure ? std::max(model_.search.doubt_below, kReassuring)
+                                       : model_.search.doubt_below;
+    return found.likeness < least * search_.expectations().usualLikeness();
+  }
+
+  /// It bends anywhere, and often looks the same all along.
+  bool isLine() const {
+    return layout_.segments.size() == 1 && layout_.segments.front().layout == Layout::kDeformable;
   }
 
   /// A chain elsewhere is believed in if it is clearly better and would do to end a loss.
@@ -160,8 +176,23 @@ class ChainTracker::Implementation {
     const bool is_placed = failures % 2 == 0;
     FoundChain found = is_placed ? counted(search_.findAnywhere(trusted_, reach, nearby))
                                  : find(trusted_, {reach, 0.0});
+    if (isLine()) found = refitted(std::move(found));
     if (found.state.confidence >= model_.search.found_above) preferBetter(reversed(found), found);
     return found;
+  }
+
+  /// A line bent along what it was found on, then as stiff as ever: one that may bend at will fits
+  /// anything. Springs that remember where each edge pointed keep it from sliding along itself.
+  FoundChain refitted(FoundChain found) {
+    const double radius = searchRadius(0);
+    for (int i = 0; i < kRefits; ++i) {
+      shape_.carry(found.state);
+      FoundChain bent = find(found.state, {radius, 0.0, kLoose});
+      if (bent.likeness < found.likeness + kLeastGain) break;
+      found = std::move(bent);
+    }
+    shape_.carry(found.state);
+    return find(found.state, {radius, 0.0});
   }
 
   /// What is found of an object whose two ends look alike may be the wrong way round.

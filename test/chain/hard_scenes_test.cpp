@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "chain_tracker/chain/auto_model.h"
 #include "chain_tracker/chain/chain_model_io.h"
 #include "chain_tracker/chain/chain_tracker.h"
 #include "chain_tracker/evaluation/metrics.h"
@@ -66,9 +67,9 @@ double lengthOf(const std::vector<cv::Point2d>& points) {
 double pckOf(const std::string& scene_name, const SceneOptions& options) {
   const auto scene = makeScene(scene_name, options);
   const SceneFrame first = scene->render(0);
-  ChainTracker tracker(loadChainModel(std::string(CHAIN_TRACKER_SOURCE_DIR) + "/config/models/" +
-                                      scene->model() + ".yaml"),
-                       first.image, first.points);
+  const ChainModel model = loadChainModel(std::string(CHAIN_TRACKER_SOURCE_DIR) +
+                                          "/config/models/" + scene->model() + ".yaml");
+  ChainTracker tracker(withRoomForParts(model, first.points), first.image, first.points);
   std::vector<double> errors;
   for (int i = 1; i < kFrames; ++i) {
     const SceneFrame frame = scene->render(i);
@@ -88,6 +89,7 @@ struct Case {
   std::string scene;
   SceneOptions (*options)(unsigned seed);
   double least_pck = 0.0;
+  unsigned seeds = 1;  ///< from 1 on, over which the mean is taken
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& which) { return out << which.name; }
@@ -96,9 +98,10 @@ std::vector<Case> cases() {
   return {{"occluded_bottle", "bottle", occluded, 0.95},
           {"occluded_box", "box", occluded, 0.9},
           {"occluded_robot_arm", "robot_arm", occluded, 0.9},
-          {"occluded_guitar_string", "guitar_string", occluded, 0.85},
-          {"occluded_cable", "cable", occluded, 0.65},
-          {"occluded_suture", "suture", occluded, 0.55},
+          {"occluded_guitar_string", "guitar_string", occluded, 0.85, 4},
+          {"occluded_cable", "cable", occluded, 0.85, 4},
+          {"occluded_suture", "suture", occluded, 0.6, 4},
+          {"occluded_lips", "lips", occluded, 0.6, 4},
           {"spinning_bottle", "bottle", spinning, 0.9},
           {"spinning_box", "box", spinning, 0.95},
           {"spinning_cable", "cable", spinning, 0.95},
@@ -114,7 +117,11 @@ std::vector<Case> cases() {
 class HardScene : public testing::TestWithParam<Case> {};
 
 TEST_P(HardScene, PointsAreFound) {
-  const double pck = pckOf(GetParam().scene, GetParam().options(1));
+  std::vector<double> pcks;
+  for (unsigned seed = 1; seed <= GetParam().seeds; ++seed) {
+    pcks.push_back(pckOf(GetParam().scene, GetParam().options(seed)));
+  }
+  const double pck = mean(pcks);
   EXPECT_GE(pck, GetParam().least_pck);
   RecordProperty("pck_10", std::to_string(pck));
 }
