@@ -64,8 +64,9 @@ void computePartCost(const std::vector<cv::Mat1i>& counts, const RootHistogram& 
 cv::Point2d CandidateGrid::originAround(const cv::Point2d& center) const {
   const cv::Point2d first = lattice.centerOf(0, 0);
   const double step = lattice.step;
-  return first + cv::Point2d(std::round((center.x - first.x) / step) - states.width / 2,
-                             std::round((center.y - first.y) / step) - states.height / 2) *
+  const cv::Point middle(states / 2);
+  return first + cv::Point2d(std::round((center.x - first.x) / step) - middle.x,
+                             std::round((center.y - first.y) / step) - middle.y) *
                      step;
 }
 

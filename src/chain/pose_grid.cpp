@@ -25,8 +25,10 @@ double parabolaMinimum(double before, double middle, double after) {
 }  // namespace
 
 SegmentPose PoseGrid::at(double row, double column) const {
-  return {wrapAngle(middle.orientation + (row - orientations / 2) * orientation_step),
-          middle.scale * std::exp((column - scales / 2) * scale_step)};
+  const int middle_row = orientations / 2;
+  const int middle_column = scales / 2;
+  return {wrapAngle(middle.orientation + (row - middle_row) * orientation_step),
+          middle.scale * std::exp((column - middle_column) * scale_step)};
 }
 
 SegmentPose PoseGrid::at(size_t index) const {

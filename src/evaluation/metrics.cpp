@@ -60,6 +60,7 @@ double successAuc(const std::vector<double>& overlaps) { return mean(successCurv
 
 std::vector<double> precisionCurve(const std::vector<double>& distances) {
   std::vector<double> curve;
+  curve.reserve(kPrecisionThresholds);
   for (int i = 0; i < kPrecisionThresholds; ++i) curve.push_back(shareWithin(distances, i));
   return curve;
 }

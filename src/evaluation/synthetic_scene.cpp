@@ -10,7 +10,7 @@ namespace chain_tracker {
 namespace {
 
 const std::vector<SceneRecipe>& recipes() {
-  static const std::vector<SceneRecipe> all{
+  static const std::vector<SceneRecipe> kAll{
       {"bottle", "bottle", paintWall, makeBottle},
       {"box", "box", paintDesk, makeBox},
       {"robot_arm", "robot_arm", paintWorkshop, makeRobotArm},
@@ -21,7 +21,7 @@ const std::vector<SceneRecipe>& recipes() {
       {"lips", "lips", paintDimRoom, makeLips},
       {"plastic_bag", "plastic_bag", paintStreet, makePlasticBag},
   };
-  return all;
+  return kAll;
 }
 
 std::string joined(const std::vector<std::string>& texts, const std::string& separator) {

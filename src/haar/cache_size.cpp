@@ -30,8 +30,8 @@ size_t largestCache() {
 }  // namespace
 
 size_t lastCacheBytes() {
-  static const size_t bytes = largestCache();
-  return bytes;
+  static const size_t kBytes = largestCache();
+  return kBytes;
 }
 
 }  // namespace chain_tracker::haar

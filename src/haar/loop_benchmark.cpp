@@ -205,7 +205,7 @@ double LoopBenchmark::integralSeconds(Lane lane) {
   const std::vector<std::uint8_t> pixels(static_cast<size_t>(size_.width));
   const int columns = memory().columns;
   const AlignedNumbers rows(static_cast<size_t>(columns) * kRingRows);
-  const auto integrateAll = [&](auto* first) {
+  const auto integrate_all = [&](auto* first) {
     using Sum = std::remove_pointer_t<decltype(first)>;
     for (int row = 1; row < kRingRows; ++row) {
       Sum* const target = first + static_cast<std::ptrdiff_t>(row) * columns;
@@ -215,9 +215,9 @@ double LoopBenchmark::integralSeconds(Lane lane) {
   };
   const double seconds = secondsOf([&] {
     if (lane == Lane::k32) {
-      integrateAll(reinterpret_cast<std::uint32_t*>(rows.data()));
+      integrate_all(reinterpret_cast<std::uint32_t*>(rows.data()));
     } else {
-      integrateAll(reinterpret_cast<std::uint16_t*>(rows.data()));
+      integrate_all(reinterpret_cast<std::uint16_t*>(rows.data()));
     }
   });
   return seconds / (static_cast<double>(size_.width) * (kRingRows - 1));

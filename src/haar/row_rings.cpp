@@ -45,12 +45,12 @@ std::vector<size_t> ringOwners(const ConvolutionPlan& plan, const std::vector<Pl
   for (size_t i = 0; i < loops.size(); ++i) {
     if (loops[i].target < 0) continue;
     const auto target = static_cast<size_t>(loops[i].target);
-    const auto canTake = [&](size_t ring) {
+    const auto can_take = [&](size_t ring) {
       return is_ring[ring] && isPassing(buffers[ring]) && isPassing(buffers[target]) &&
              buffers[ring].lane == buffers[target].lane && busy_until[ring] < i;
     };
     for (size_t ring = 0; ring < target && owners[target] == target; ++ring) {
-      if (canTake(ring)) owners[target] = ring;
+      if (can_take(ring)) owners[target] = ring;
     }
     is_ring[owners[target]] = true;
     busy_until[owners[target]] = last_reads[target];

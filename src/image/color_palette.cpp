@@ -48,12 +48,12 @@ Samples sampleColors(const cv::Mat& image, const cv::Mat1b& object, const cv::Ma
   const int object_pixels = cv::countNonZero(object);
   const int ring_pixels = cv::countNonZero(ring);
   const int stride = (object_pixels + ring_pixels) / kMaxSamples;
-  const auto strideOf = [&](int pixels) {
+  const auto stride_of = [&](int pixels) {
     return std::max(1, std::min(stride, pixels / kMinSamples));
   };
   Samples samples;
-  addSamples(image, object, true, strideOf(object_pixels), samples);
-  addSamples(image, ring, false, strideOf(ring_pixels), samples);
+  addSamples(image, object, true, stride_of(object_pixels), samples);
+  addSamples(image, ring, false, stride_of(ring_pixels), samples);
   samples.colors = samples.colors.reshape(3, 1);
   return samples;
 }
@@ -140,6 +140,7 @@ std::vector<std::uint8_t> entriesOf(const std::vector<double>& shares, double mi
   const double largest = *std::max_element(shares.begin(), shares.end());
   const double limit = std::min(min_share, largest);
   std::vector<std::uint8_t> entries;
+  entries.reserve(shares.size());
   std::uint8_t next = ColorPalette::kOther;
   for (double share : shares) {
     entries.push_back(share >= limit ? ++next : ColorPalette::kOther);
