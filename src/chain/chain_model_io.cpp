@@ -22,8 +22,8 @@ using KeyLines = std::map<std::string, int>;
 /// One place in a document: for errors that name file, line and key.
 class Reader {
  public:
-  Reader(YAML::Node node, std::string source, std::string path, int line, KeyLines* lines)
-      : node_(std::move(node)),
+  Reader(const YAML::Node& node, std::string source, std::string path, int line, KeyLines* lines)
+      : node_(node),
         source_(std::move(source)),
         path_(std::move(path)),
         line_(line),
@@ -181,7 +181,8 @@ void requireUsable(const ChainModel& model, const std::string& source, const Key
     const auto line = lines.find(fault.substr(0, fault.find(' ')));
     const std::string place =
         line == lines.end() ? source : source + ":" + std::to_string(line->second);
-    message += (message.empty() ? "" : "\n") + place + ": " + fault;
+    if (!message.empty()) message += '\n';
+    message.append(place).append(": ").append(fault);
   }
   if (!message.empty()) throw std::invalid_argument(message);
 }

@@ -167,7 +167,8 @@ class Lips : public SceneObject {
       points.push_back({u * mouth.half_width, mouth.lowerRim(u)});
     }
     std::vector<cv::Point2d> rims;
-    for (double u = -1.0; u <= 1.0; u += 0.02) {
+    for (int percent = -100; percent <= 100; percent += 2) {
+      const double u = 0.01 * percent;
       rims.push_back({u * mouth.half_width, mouth.upperRim(u)});
       rims.push_back({u * mouth.half_width, mouth.lowerRim(u)});
     }

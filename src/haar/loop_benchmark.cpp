@@ -152,7 +152,7 @@ LoopBenchmark::Memory& LoopBenchmark::memory() {
 }
 
 size_t LoopBenchmark::writtenPlanes(const MeasuredLoop& loop) const {
-  const size_t plane_bytes = static_cast<size_t>(size_.area()) * sizeof(std::int32_t);
+  const size_t plane_bytes = static_cast<size_t>(std::max(1, size_.area())) * sizeof(std::int32_t);
   return std::max<size_t>(1, std::min(loop.planes, kMostBytes / plane_bytes));
 }
 

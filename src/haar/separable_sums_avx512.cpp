@@ -62,14 +62,14 @@ void sumSeparable(const RowTap* taps, size_t, const RowStore& source, void* targ
       const int row = (block.row + y - taps[k].dy) & source.mask;
       from[k] = static_cast<const U16*>(source.first) + row * source.stride + first;
     }
-    const auto columnSums = [&](std::ptrdiff_t x) {
+    const auto column_sums = [&](std::ptrdiff_t x) {
       return sumOf<NarrowVector>(Column(), column_weights,
                                  [&](int k) { return Access::load(from[k] + x); });
     };
     auto* const to = static_cast<typename K::Target*>(target) + y * block.target_stride;
-    NarrowVector before = columnSums(-kLanes);
+    NarrowVector before = column_sums(-kLanes);
     const auto next = [&](std::ptrdiff_t x) {
-      const NarrowVector values = columnSums(x);
+      const NarrowVector values = column_sums(x);
       const NarrowVector sums = sumOf<NarrowVector>(
           Row(), row_weights, [&](int k) { return delayed(before, values, indices[k]); });
       before = values;

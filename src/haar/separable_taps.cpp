@@ -9,7 +9,7 @@ namespace {
 /// The first row that has taps, put into row 0; its first weight is positive, and its weights have
 /// no common divisor.
 SparseKernel firstRow(const SparseKernel& kernel) {
-  std::int64_t divisor = 0;
+  std::int64_t divisor = kernel.taps().front().weight;
   std::vector<KernelTap> row;
   for (const KernelTap& tap : kernel.taps()) {
     if (tap.dy != kernel.taps().front().dy) break;

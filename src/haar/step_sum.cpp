@@ -8,7 +8,7 @@
 namespace chain_tracker::haar {
 
 size_t cachedPlanes(const cv::Size& size, size_t planes) {
-  const size_t plane_bytes = static_cast<size_t>(size.area()) * sizeof(std::int32_t);
+  const size_t plane_bytes = static_cast<size_t>(std::max(1, size.area())) * sizeof(std::int32_t);
   if (planes * plane_bytes > lastCacheBytes()) return 0;
   // The other half is for whoever else uses the cache.
   return std::min(planes, lastCacheBytes() / 2 / plane_bytes);

@@ -178,8 +178,9 @@ cv::Mat3b greyLevels() {
 
 /// Indices of the lookup table.
 CHAIN_TRACKER_MULTIVERSION
-void indexPixels(const uchar* __restrict bgr, std::uint16_t* __restrict indices, int pixels) {
-  for (int i = 0; i < pixels; ++i) {
+void indexPixels(const uchar* __restrict bgr, std::uint16_t* __restrict indices,
+                 std::ptrdiff_t pixels) {
+  for (std::ptrdiff_t i = 0; i < pixels; ++i) {
     indices[i] = static_cast<std::uint16_t>(((bgr[3 * i] >> kShift) << (2 * kBits)) |
                                             ((bgr[3 * i + 1] >> kShift) << kBits) |
                                             (bgr[3 * i + 2] >> kShift));
@@ -187,13 +188,14 @@ void indexPixels(const uchar* __restrict bgr, std::uint16_t* __restrict indices,
 }
 
 /// Computes the indices apart from looking them up, as only they can be vectorised.
-void classifyRow(const uchar* bgr, const std::uint8_t* table, uchar* entries, int pixels) {
-  constexpr int kRun = 256;
+void classifyRow(const uchar* bgr, const std::uint8_t* table, uchar* entries,
+                 std::ptrdiff_t pixels) {
+  constexpr std::ptrdiff_t kRun = 256;
   std::uint16_t indices[kRun];
-  for (int first = 0; first < pixels; first += kRun) {
-    const int run = std::min(kRun, pixels - first);
+  for (std::ptrdiff_t first = 0; first < pixels; first += kRun) {
+    const std::ptrdiff_t run = std::min(kRun, pixels - first);
     indexPixels(bgr + 3 * first, indices, run);
-    for (int i = 0; i < run; ++i) entries[first + i] = table[indices[i]];
+    for (std::ptrdiff_t i = 0; i < run; ++i) entries[first + i] = table[indices[i]];
   }
 }
 

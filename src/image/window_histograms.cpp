@@ -7,6 +7,8 @@
 #include <cstring>
 #include <limits>
 
+#include <opencv2/core/hal/intrin.hpp>
+
 #include "reused_plane.h"
 
 namespace chain_tracker {
@@ -46,14 +48,24 @@ constexpr size_t kCounters = 16;
 typedef uchar Counters __attribute__((vector_size(kCounters)));
 using CounterBlock = std::array<Counters, kCounters>;
 
+cv::v_uint8x16 load(const Counters& counters) {
+  return cv::v_load(reinterpret_cast<const uchar*>(&counters));
+}
+
+void store(const cv::v_uint8x16& from, Counters& counters) {
+  cv::v_store(reinterpret_cast<uchar*>(&counters), from);
+}
+
 /// One pass of a perfect shuffle: the first half of the rows interleaved with the second. After
 /// four of them rows have become columns.
 CounterBlock interleaved(const CounterBlock& rows) {
-  constexpr Counters kLow = {0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23};
   CounterBlock mixed;
   for (size_t i = 0; i < kCounters / 2; ++i) {
-    mixed[2 * i] = __builtin_shuffle(rows[i], rows[i + kCounters / 2], kLow);
-    mixed[2 * i + 1] = __builtin_shuffle(rows[i], rows[i + kCounters / 2], kLow + 8);
+    cv::v_uint8x16 low;
+    cv::v_uint8x16 high;
+    cv::v_zip(load(rows[i]), load(rows[i + kCounters / 2]), low, high);
+    store(low, mixed[2 * i]);
+    store(high, mixed[2 * i + 1]);
   }
   return mixed;
 }
