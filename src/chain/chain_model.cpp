@@ -96,6 +96,7 @@ void checkSearch(const SearchModel& search, FaultList& faults) {
   faults.requireRange("search/radius", search.radius, 0.002, 1.0);
   faults.requireRange("search/lost_below", search.lost_below, 0.0, 1.0);
   faults.requireRange("search/found_above", search.found_above, 0.0, 1.0);
+  faults.requireRange("search/lost_share", search.lost_share, 0.0, 0.8);
   faults.requireRange("search/occluded_below", search.occluded_below, 0.0, 1.0);
   faults.requireRange("search/travel_weight", search.travel_weight, 0.0, 100.0);
   faults.requireRange("search/doubt_below", search.doubt_below, 0.0, 1.0);

@@ -153,6 +153,7 @@ void readSearch(const Reader& reader, SearchModel& search) {
   reader.readMap({{"radius", into(search.radius)},
                   {"lost_below", into(search.lost_below)},
                   {"found_above", into(search.found_above)},
+                  {"lost_share", into(search.lost_share)},
                   {"occluded_below", into(search.occluded_below)},
                   {"travel_weight", into(search.travel_weight)},
                   {"doubt_below", into(search.doubt_below)}});

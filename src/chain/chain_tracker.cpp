@@ -75,7 +75,8 @@ class ChainTracker::Implementation {
     requireImage(image);
     const ChainModel expanded = forPolyline(model, points.size());
     requireModel(expanded);
-    checked(layOut(expanded, points), image.size());
+    const ChainLayout layout = checked(layOut(expanded, points), image.size());
+    requireContrast(image, layout.silhouette);
     ChainModel measured = withMeasuredAspects(expanded, image, points);
     return havePartsRoom(layOut(measured, points), image.size()) ? measured : expanded;
   }
@@ -208,11 +209,11 @@ class ChainTracker::Implementation {
     ChainState& found = chain.state;
     const double hidden = search_.expectations().hiddenShare(found.parts);
     const bool is_seen = hidden <= kMostHidden;
-    found.status = nextStatus(state_.status, found.confidence, is_seen, model_.search);
+    const double usual = search_.expectations().usualConfidence();
+    found.status = nextStatus(state_.status, found.confidence, usual, is_seen, model_.search);
     if (found.status == TrackingStatus::kLost) {
       ++frames_lost_;
-      state_.status = found.status;
-      state_.confidence = found.confidence;
+      giveUp(found);
       return;
     }
     frames_lost_ = 0;
@@ -220,6 +221,22 @@ class ChainTracker::Implementation {
     search_.observe(chain);
     if (chain.likeness >= kTrusted * search_.expectations().usualLikeness()) trusted_ = found;
     state_ = std::move(found);
+  }
+
+  /// Positions stay the last believed ones; nothing else is told of them any more.
+  void giveUp(const ChainState& found) {
+    state_.status = found.status;
+    state_.confidence = found.confidence;
+    state_.energy = found.energy;
+    for (SegmentState& segment : state_.segments) segment.confidence = 0.0;
+    for (PartState& part : state_.parts) {
+      part.confidence = 0.0;
+      part.visible = false;
+    }
+    for (CarriedPoint& point : state_.points) {
+      point.confidence = 0.0;
+      point.visible = false;
+    }
   }
 
   ChainModel model_;

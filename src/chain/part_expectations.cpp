@@ -83,6 +83,11 @@ double PartExpectations::meanConfidence(const std::vector<PartState>& parts, siz
   return sum / weights;
 }
 
+double PartExpectations::usualConfidence() const {
+  const double weights = std::accumulate(evidence_.begin(), evidence_.end(), 0.0);
+  return std::inner_product(evidence_.begin(), evidence_.end(), usual_.begin(), 0.0) / weights;
+}
+
 double PartExpectations::hiddenShare(const std::vector<PartState>& parts) const {
   double hidden = 0.0;
   double all = 0.0;

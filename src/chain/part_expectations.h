@@ -16,8 +16,6 @@ class PartExpectations {
   /// Of `parts` parts.
   PartExpectations(ObjectAppearance& appearance, const AppearanceModel& model, size_t parts);
 
-  size_t parts() const { return evidence_.size(); }
-
   /// Confidence of a part whose window costs `cost` by colours and texture, in [0, 1]: 0 where it
   /// costs what a flat piece of background would.
   double confidence(size_t part, double cost) const;
@@ -39,6 +37,10 @@ class PartExpectations {
 
   /// Share of what the parts can tell that is told by hidden ones, in [0, 1].
   double hiddenShare(const std::vector<PartState>& parts) const;
+
+  /// Of the object while it was believed in, weighted as meanConfidence(); 1 before anything was
+  /// observed. Sinks within some twenty frames.
+  double usualConfidence() const;
 
   /// Of the object while it was believed in, slow to sink; 1 before anything was observed.
   double usualLikeness() const { return usual_likeness_; }

@@ -12,6 +12,11 @@ namespace {
 /// A smaller part has no histogram worth the name [px].
 constexpr double kSmallestSide = 4.0;
 
+/// Of the surroundings, to each side, of the size of the target.
+constexpr double kSurroundings = 0.5;
+/// Of the lightest and the darkest pixel, in one of the channels [grey levels]: less is noise.
+constexpr double kLeastContrast = 8.0;
+
 double largestSide(const cv::Size& image_size) {
   return std::min(image_size.width, image_size.height);
 }
@@ -79,6 +84,29 @@ void requireInside(const Silhouette& silhouette, const cv::Size& image_size) {
   message << "the target spans x " << bounds.x << " to " << bounds.br().x << " and y " << bounds.y
           << " to " << bounds.br().y << " px, must lie at least half inside the "
           << textOf(image_size) << " image";
+  throw std::invalid_argument(message.str());
+}
+
+void requireContrast(const cv::Mat& image, const Silhouette& silhouette) {
+  const cv::Rect2d bounds = uprightBounds(silhouette.points);
+  const double reach = kSurroundings * std::max(bounds.width, bounds.height) + 1.0;
+  const cv::Rect surroundings = cv::Rect(cv::Point(bounds.tl() - cv::Point2d(reach, reach)),
+                                         cv::Point(bounds.br() + cv::Point2d(reach, reach))) &
+                                cv::Rect(cv::Point(), image.size());
+  std::vector<cv::Mat> channels;
+  cv::split(image(surroundings), channels);
+  double contrast = 0.0;
+  for (const cv::Mat& channel : channels) {
+    double darkest = 0.0;
+    double lightest = 0.0;
+    cv::minMaxLoc(channel, &darkest, &lightest);
+    contrast = std::max(contrast, lightest - darkest);
+  }
+  if (contrast >= kLeastContrast) return;
+  std::ostringstream message;
+  message << "the image shows nothing to follow at the target: in " << textOf(surroundings.size())
+          << " px around it the lightest and the darkest pixel differ by " << contrast
+          << " of 255 grey levels, must differ by at least " << kLeastContrast;
   throw std::invalid_argument(message.str());
 }
 

@@ -69,6 +69,7 @@ search:
   radius: 0.09
   lost_below: 0.125
   found_above: 0.625
+  lost_share: 0.1875
   occluded_below: 0.3
   travel_weight: 0.625
   doubt_below: 0.875
@@ -98,7 +99,7 @@ ChainModel everyKeyModel() {
   model.segments[1].name = "nozzle";
   model.joints = {{-0.5, 1.5}};
   model.appearance = {31, 0.75, 0.375, 5.5, 7.5, 2.25, 0.375, 0.75};
-  model.search = {0.09, 0.125, 0.625, 0.3, 0.625, 0.875};
+  model.search = {0.09, 0.125, 0.625, 0.1875, 0.3, 0.625, 0.875};
   return model;
 }
 
@@ -124,7 +125,7 @@ TEST(ParseChainModel, noKeyIsUntested) {
       ++keys;
     }
   }
-  EXPECT_EQ(38U, keys);
+  EXPECT_EQ(39U, keys);
 }
 
 TEST(ParseChainModel, keysLeftOutKeepTheirDefaults) {

@@ -82,6 +82,7 @@ std::vector<Limits> allLimits() {
       appearanceLimits("outlier_slope", &AppearanceModel::outlier_slope, 0.0, 1.0),
       searchLimits("radius", &SearchModel::radius, 0.002, 1.0),
       searchLimits("lost_below", &SearchModel::lost_below, 0.0, 1.0),
+      searchLimits("lost_share", &SearchModel::lost_share, 0.0, 0.8),
       searchLimits("found_above", &SearchModel::found_above, 0.0, 1.0),
       searchLimits("occluded_below", &SearchModel::occluded_below, 0.0, 1.0),
       searchLimits("travel_weight", &SearchModel::travel_weight, 0.0, 100.0),

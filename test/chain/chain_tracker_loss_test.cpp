@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "chain_tracker/chain/chain_model_io.h"
 #include "chain_tracker/chain/chain_tracker.h"
+#include "chain_tracker/evaluation/synthetic_scene.h"
 #include "support/drawn_box.h"
 
 namespace chain_tracker {
@@ -51,11 +53,15 @@ TEST(ChainTrackerLoss, boxPaintedAwayIsLostAndStaysWhereItWas) {
     EXPECT_EQ("LOST", toString(state.status));
     EXPECT_LT(state.confidence, 0.4);
     EXPECT_EQ(before.box, state.box);
+    EXPECT_EQ(0.0, state.segments.front().confidence);
     for (size_t k = 0; k < state.parts.size(); ++k) {
       EXPECT_EQ(before.parts[k].position, state.parts[k].position) << "part " << k;
+      EXPECT_EQ(0.0, state.parts[k].confidence) << "part " << k;
+      EXPECT_FALSE(state.parts[k].visible) << "part " << k;
     }
     for (size_t i = 0; i < state.points.size(); ++i) {
       EXPECT_EQ(before.points[i].position, state.points[i].position) << "point " << i;
+      EXPECT_EQ(0.0, state.points[i].confidence) << "point " << i;
     }
   }
 }
@@ -153,6 +159,27 @@ TEST(ChainTrackerLoss, coveredPartsAreHiddenAndCarried) {
   }
   const Similarity last{0.0, 1.0, kStart.translation + cv::Point2d(24, 8)};
   EXPECT_EQ("TRACKING", toString(tracker.update(box.image(last)).status));
+}
+
+/// What is left looks a little like some of them.
+TEST(ChainTrackerLoss, whatVanishesIsLost) {
+  for (const std::string name : {"bottle", "box", "robot_arm", "cable"}) {
+    SCOPED_TRACE(name);
+    const auto scene = makeScene(name, SceneOptions());
+    const SceneFrame first = scene->render(0);
+    const std::string models = std::string(CHAIN_TRACKER_SOURCE_DIR) + "/config/models/";
+    ChainTracker tracker(loadChainModel(models + scene->model() + ".yaml"), first.image,
+                         first.points);
+    for (int index = 1; index <= 20; ++index) tracker.update(scene->render(index).image);
+    ASSERT_NE(TrackingStatus::kLost, tracker.state().status);
+    int lost = 0;
+    for (int index = 21; index <= 40; ++index) {
+      const ChainState& state = tracker.update(scene->renderWithoutObject(index));
+      lost += state.status == TrackingStatus::kLost ? 1 : 0;
+    }
+    EXPECT_GE(lost, 18) << "of 20 frames without it";
+    framesUntil(tracker, scene->render(41).image, TrackingStatus::kTracking, 10);
+  }
 }
 
 TEST(ChainTrackerLoss, boxLeavingTheImageIsLost) {

@@ -52,6 +52,12 @@ TEST(ChainTrackerRefuses, imagesThatAreEmptyOrOfAnotherType) {
   EXPECT_EQ("", omissionsOf(refusal(cv::Mat(240, 320, CV_16UC1)), {"CV_16UC1", "CV_8UC1"}));
 }
 
+TEST(ChainTrackerRefuses, imagesThatShowNothing) {
+  const cv::Mat black(240, 320, CV_8UC3, cv::Scalar());
+  EXPECT_EQ("", omissionsOf(refusalOf(modelOf(Layout::kPlanar), black, DrawnBox::corners(kStart)),
+                            {"nothing to follow", "0 of 255"}));
+}
+
 TEST(ChainTrackerRefuses, partsThatDoNotFit) {
   const cv::Mat strip(10, 320, CV_8UC3, cv::Scalar(1, 2, 3));
   ChainModel model = modelOf(Layout::kPlanar);
@@ -133,7 +139,8 @@ TEST(ChainTrackerTakes, theSmallestTargetsAndImages) {
   ChainModel model = modelOf(Layout::kPlanar);
   model.segments[0].parts = 2;
   model.segments[0].margin = 0.0;
-  const cv::Mat image(6, 10, CV_8UC3, cv::Scalar(10, 90, 200));
+  cv::Mat image(6, 10, CV_8UC3, cv::Scalar(10, 90, 200));
+  image.colRange(0, 5).setTo(cv::Scalar(10, 200, 90));
   ChainTracker tracker(model, image, {{0, 0}, {9, 0}, {9, 5}, {0, 5}});
   const ChainState& state = tracker.update(image);
   EXPECT_EQ(2U, state.parts.size());

@@ -52,6 +52,15 @@ TEST_F(PartExpectationsTest, confidenceSinksFromOneToNoughtWithTheCost) {
   }
 }
 
+TEST_F(PartExpectationsTest, theUsualConfidenceFollowsWhatIsObserved) {
+  EXPECT_NEAR(1.0, expectations_.usualConfidence(), 1e-9);
+  observe(0.4);
+  EXPECT_LT(expectations_.usualConfidence(), 1.0);
+  EXPECT_GT(expectations_.usualConfidence(), 0.9);
+  for (int frame = 0; frame < 400; ++frame) observe(0.4);
+  EXPECT_NEAR(0.4, expectations_.usualConfidence(), 1e-6);
+}
+
 TEST_F(PartExpectationsTest, anOutlierHasItsShareOfTheUsualConfidence) {
   for (int frame = 0; frame < 400; ++frame) observe(0.6);
   for (size_t part = 0; part < parts_; ++part) {

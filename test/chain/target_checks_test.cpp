@@ -124,5 +124,22 @@ TEST(RequireInside, passesAStraightLineInside) {
   EXPECT_EQ("", refusalOf([] { requireInside({{{10, 10}, {10, 70}}, 2.0}, {100, 80}); }));
 }
 
+TEST(RequireContrast, passesWhatHasAnOutline) {
+  cv::Mat3b image(80, 100, cv::Vec3b(40, 40, 40));
+  image(cv::Rect(30, 30, 20, 20)) = cv::Vec3b(40, 48, 40);
+  EXPECT_EQ("", refusalOf([&] { requireContrast(image, box(30, 30, 19, 19)); }));
+  EXPECT_EQ("", refusalOf([&] { requireContrast(image, box(-10, 30, 99, 19)); }));
+}
+
+TEST(RequireContrast, refusesWhereNothingIsToBeSeen) {
+  cv::Mat1b image(80, 100, static_cast<uchar>(3));
+  image(5, 5) = 200;
+  image(40, 40) = 10;
+  EXPECT_EQ("", omissionsOf(refusalOf([&] { requireContrast(image, box(30, 30, 19, 19)); }),
+                            {"differ by 7", "at least 8"}));
+  image(40, 40) = 11;
+  EXPECT_EQ("", refusalOf([&] { requireContrast(image, box(30, 30, 19, 19)); }));
+}
+
 }  // namespace
 }  // namespace chain_tracker

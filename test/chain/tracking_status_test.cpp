@@ -18,11 +18,12 @@ SearchModel thresholds() {
   SearchModel model;
   model.lost_below = 0.25;
   model.found_above = 0.5;
+  model.lost_share = 0.0;
   return model;
 }
 
 TrackingStatus after(TrackingStatus previous, double confidence, bool all_visible = true) {
-  return nextStatus(previous, confidence, all_visible, thresholds());
+  return nextStatus(previous, confidence, 1.0, all_visible, thresholds());
 }
 
 TEST(TrackingStatus, hasAName) {
@@ -75,9 +76,23 @@ TEST(NextStatus, withoutHysteresisOneThresholdServesBoth) {
   SearchModel model = thresholds();
   model.found_above = model.lost_below;
   for (TrackingStatus previous : {kTracking, kLost}) {
-    EXPECT_EQ(kTracking, nextStatus(previous, 0.25, true, model));
-    EXPECT_EQ(kLost, nextStatus(previous, 0.24, true, model));
+    EXPECT_EQ(kTracking, nextStatus(previous, 0.25, 1.0, true, model));
+    EXPECT_EQ(kLost, nextStatus(previous, 0.24, 1.0, true, model));
   }
+}
+
+TEST(NextStatus, AFallFarBelowTheUsualConfidenceLosesAnObject) {
+  SearchModel model;
+  model.lost_below = 0.1;
+  model.found_above = 0.2;
+  model.lost_share = 0.3;
+  EXPECT_EQ(kTracking, nextStatus(kTracking, 0.28, 0.9, true, model));
+  EXPECT_EQ(kLost, nextStatus(kTracking, 0.26, 0.9, true, model));
+  EXPECT_EQ(kTracking, nextStatus(kTracking, 0.11, 0.3, true, model)) << "seldom surer than that";
+  EXPECT_EQ(kLost, nextStatus(kTracking, 0.09, 0.3, true, model)) << "the confidence counts, too";
+  EXPECT_EQ(kLost, nextStatus(kLost, 0.32, 0.9, true, model)) << "hysteresis";
+  EXPECT_EQ(kTracking, nextStatus(kLost, 0.33, 0.9, true, model));
+  EXPECT_EQ(kTracking, nextStatus(kLost, 0.21, 0.3, true, model));
 }
 
 }  // namespace

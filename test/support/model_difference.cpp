@@ -49,6 +49,7 @@ class Differences {
   void compare(const SearchModel& expected, const SearchModel& actual) {
     compare("search/radius", expected.radius, actual.radius);
     compare("search/lost_below", expected.lost_below, actual.lost_below);
+    compare("search/lost_share", expected.lost_share, actual.lost_share);
     compare("search/found_above", expected.found_above, actual.found_above);
     compare("search/occluded_below", expected.occluded_below, actual.occluded_below);
     compare("search/travel_weight", expected.travel_weight, actual.travel_weight);

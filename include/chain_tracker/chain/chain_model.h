@@ -73,9 +73,14 @@ struct AppearanceModel {
 
 /// Where and when the object is looked for, and when it counts as found.
 struct SearchModel {
-  double radius = 0.06;          ///< reach of a part between frames, fraction of the image diagonal
-  double lost_below = 0.07;      ///< confidence under which a tracked object becomes LOST
-  double found_above = 0.2;      ///< confidence over which a LOST object is tracked again
+  /// Reach of a part between frames, fraction of the image diagonal; of what is thin at most 64
+  /// steps of the coarse lattice, some 8 window sides, or 21 where it has been made coarser.
+  double radius = 0.06;
+  double lost_below = 0.07;  ///< confidence under which a tracked object becomes LOST
+  double found_above = 0.2;  ///< confidence over which a LOST object is tracked again
+  /// Share of its usual confidence under which a tracked object becomes LOST, too; a LOST one needs
+  /// a fifth more to be tracked again. 0: the confidence alone counts.
+  double lost_share = 0.25;
   double occluded_below = 0.25;  ///< confidence under which a part counts as hidden
   /// Cost of a part that moves by `radius` between two frames: keeps what is hidden in place.
   double travel_weight = 1.0;

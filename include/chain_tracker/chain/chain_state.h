@@ -55,6 +55,8 @@ struct StepTimes {
   }
 };
 
+/// While the object is LOST, `confidence` and `energy` are of the best chain found, which is not
+/// believed; all parts, segments and points are hidden, with confidence 0.
 struct ChainState {
   TrackingStatus status = TrackingStatus::kInitializing;
   double confidence = 0.0;  ///< [0, 1]: as of a segment, over all parts

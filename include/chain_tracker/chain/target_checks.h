@@ -31,4 +31,8 @@ void requirePartsFit(const ChainLayout& layout, const cv::Size& image_size);
 /// At least half of the target lies inside the image: objects often stick out a little.
 void requireInside(const Silhouette& silhouette, const cv::Size& image_size);
 
+/// In the target's surroundings some pixels differ: where nothing is to be seen, as before a
+/// covered lens, nothing could be followed.
+void requireContrast(const cv::Mat& image, const Silhouette& silhouette);
+
 }  // namespace chain_tracker

@@ -18,10 +18,11 @@ enum class TrackingStatus {
 /// "INITIALIZING", "TRACKING", "OCCLUDED" or "LOST".
 std::string toString(TrackingStatus status);
 
-/// The status after a frame in which the object was matched with `confidence` [0, 1]. A LOST
-/// object needs more confidence to be believed again than a tracked one to be kept (hysteresis).
-/// `is_seen`: whether (nearly) nothing of it is hidden.
-TrackingStatus nextStatus(TrackingStatus previous, double confidence, bool is_seen,
-                          const SearchModel& model);
+/// The status after a frame in which the object was matched with `confidence`, which is usually
+/// `usual_confidence`, both in [0, 1]: what has vanished often leaves some background that looks a
+/// little like it. A LOST object needs more confidence to be believed again than a tracked one to
+/// be kept (hysteresis). `is_seen`: whether (nearly) nothing of it is hidden.
+TrackingStatus nextStatus(TrackingStatus previous, double confidence, double usual_confidence,
+                          bool is_seen, const SearchModel& model);
 
 }  // namespace chain_tracker
