@@ -2,6 +2,8 @@
 #include "chain_tracker/evaluation/frame_source.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -18,15 +20,38 @@ namespace fs = std::filesystem;
 
 constexpr double kPictureRate = 30.0;
 
-std::vector<fs::path> filesWith(const fs::path& folder, const std::vector<std::string>& endings) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string ending = entry.path().extension().string();
-    if (std::find(endings.begin(), endings.end(), ending) != endings.end()) {
-      files.push_back(entry.path());
-    }
+/// The name with its numbers filled up with zeros, so that 2 sorts before 10.
+std::string naturalKey(const std::string& name) {
+  constexpr std::size_t kDigits = 20;
+  std::string key;
+  for (std::size_t begin = 0; begin < name.size();) {
+    const std::size_t end = std::min(name.find_first_not_of("0123456789", begin), name.size());
+    const std::size_t digits = end - begin;
+    if (digits > 0 && digits < kDigits) key.append(kDigits - digits, '0');
+    key.append(name, begin, std::max<std::size_t>(digits, 1));
+    begin += std::max<std::size_t>(digits, 1);
   }
-  std::sort(files.begin(), files.end());
+  return key;
+}
+
+bool endsIn(const std::vector<std::string>& endings, const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+/// Files of the folder with one of the endings, in lower or upper case, in natural order.
+std::vector<fs::path> filesWith(const fs::path& folder, const std::vector<std::string>& endings) {
+  std::vector<std::pair<std::string, fs::path>> keyed;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (!entry.is_regular_file() || !endsIn(endings, entry.path())) continue;
+    keyed.emplace_back(naturalKey(entry.path().filename().string()), entry.path());
+  }
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<fs::path> files;
+  files.reserve(keyed.size());
+  for (const auto& [key, file] : keyed) files.push_back(file);
   return files;
 }
 
@@ -45,6 +70,7 @@ class PictureSource : public FrameSource {
   }
 
   int count() const override { return static_cast<int>(files_.size()); }
+  double rate() const override { return kPictureRate; }
 
  private:
   std::vector<fs::path> files_;
@@ -56,16 +82,18 @@ class VideoSource : public FrameSource {
   explicit VideoSource(const std::string& path) : video_(path) {
     if (!video_.isOpened()) throw std::invalid_argument(path + " cannot be opened as a video");
     const double rate = video_.get(cv::CAP_PROP_FPS);
-    if (rate > 0.0) rate_ = rate;
+    if (std::isfinite(rate) && rate > 0.0) rate_ = rate;
   }
 
   bool next(SourceFrame& frame) override {
     cv::Mat image;
     if (!video_.read(image)) return false;
-    frame = {next_, next_ / rate_, image, ""};
+    frame = {next_, next_ / (rate_ > 0.0 ? rate_ : kPictureRate), image, ""};
     ++next_;
     return true;
   }
+
+  double rate() const override { return rate_; }
 
   /// Containers are often wrong about it, so it serves the progress bar only.
   int count() const override {
@@ -74,7 +102,7 @@ class VideoSource : public FrameSource {
 
  private:
   cv::VideoCapture video_;
-  double rate_ = kPictureRate;
+  double rate_ = 0.0;  // unless it tells one
   int next_ = 0;
 };
 
@@ -92,6 +120,7 @@ class GreyFrames : public FrameSource {
   }
 
   int count() const override { return frames_->count(); }
+  double rate() const override { return frames_->rate(); }
 
  private:
   std::unique_ptr<FrameSource> frames_;

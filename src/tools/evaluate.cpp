@@ -48,7 +48,9 @@ std::vector<cv::Point2d> pointsOf(const std::vector<double>& coordinates) {
 
 void addOptions(CLI::App& app, Options& options) {
   EvaluationJob& job = options.job;
-  auto* sequence = app.add_option("--sequence", job.sequence, "Sequence folder or video file");
+  auto* sequence = app.add_option(
+      "--sequence", job.sequence,
+      "Sequence folder, its pictures in natural order (2.png before 10.png), or video file");
   auto* bag = app.add_option("--bag", job.bag, "Bag to read the images from");
   auto* suite = app.add_option("--suite", options.suite, "Folder of sequence folders: runs all");
   sequence->excludes(bag)->excludes(suite);

@@ -71,6 +71,30 @@ TEST_F(FrameSources, PicturesComeInTheOrderOfTheirNames) {
   EXPECT_EQ(openFrames(folder_.string())->count(), 3);
 }
 
+TEST_F(FrameSources, NumbersInNamesCountByTheirValue) {
+  for (const int number : {1, 2, 9, 10, 11, 100}) {
+    writePicture("take2_" + std::to_string(number) + ".png", number);
+  }
+  writePicture("take10_1.png", 200);
+  std::vector<int> levels;
+  for (const SourceFrame& frame : all(folder_.string())) levels.push_back(cvRound(levelOf(frame)));
+  EXPECT_EQ(levels, (std::vector<int>{1, 2, 9, 10, 11, 100, 200}));
+}
+
+TEST_F(FrameSources, EndingsMayBeInUpperCase) {
+  writePicture("1.PNG", 10);
+  writePicture("2.JPG", 20);
+  fs::create_directories(folder_ / "img" / "3.png");
+  EXPECT_EQ(all(folder_.string()).size(), 2U) << "a folder is no picture";
+}
+
+TEST_F(FrameSources, PicturesAndVideosTellTheirRate) {
+  EXPECT_NEAR(openFrames(writeVideo("clip.avi"))->rate(), 10.0, 1e-6);
+  writePicture("0.png", 10);
+  EXPECT_EQ(openFrames(folder_.string())->rate(), 30.0);
+  EXPECT_EQ(greyFrames(openFrames(folder_.string()))->rate(), 30.0);
+}
+
 TEST_F(FrameSources, AnUnreadablePictureIsAFrameWithAFault) {
   writePicture("0.png", 10);
   std::ofstream(folder_ / "img" / "1.png") << "no picture";

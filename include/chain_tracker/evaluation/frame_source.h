@@ -26,11 +26,15 @@ class FrameSource {
 
   /// Number of frames, or 0 if only reading on will tell.
   virtual int count() const = 0;
+
+  /// Frames a second, or 0 if it is not known or not constant.
+  virtual double rate() const { return 0.0; }
 };
 
-/// The frames of a sequence folder (img/*.jpg, *.png or *.bmp sorted by name, or one *.mp4 or *.avi
-/// file) or of a video file. Times are the index over 30 for pictures and over the video's rate.
-/// Throws std::invalid_argument naming the path if there are no frames.
+/// The frames of a sequence folder (img/*.jpg, *.png or *.bmp in natural order of their
+/// names, 2.png before 10.png, or one *.mp4 or *.avi file) or of a video file. Times are the index
+/// over 30 for pictures and over the video's rate. Throws std::invalid_argument naming the path if
+/// there are no frames.
 std::unique_ptr<FrameSource> openFrames(const std::string& path);
 
 /// The same frames as a mono8 camera would deliver them: CV_8UC1.
