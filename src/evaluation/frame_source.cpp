@@ -79,30 +79,58 @@ class PictureSource : public FrameSource {
 
 class VideoSource : public FrameSource {
  public:
-  explicit VideoSource(const std::string& path) : video_(path) {
+  explicit VideoSource(const std::string& path) : path_(path), video_(path) {
     if (!video_.isOpened()) throw std::invalid_argument(path + " cannot be opened as a video");
     const double rate = video_.get(cv::CAP_PROP_FPS);
     if (std::isfinite(rate) && rate > 0.0) rate_ = rate;
   }
 
   bool next(SourceFrame& frame) override {
-    cv::Mat image;
-    if (!video_.read(image)) return false;
-    frame = {next_, next_ / (rate_ > 0.0 ? rate_ : kPictureRate), image, ""};
+    if (ahead_.empty() && !readAhead()) return false;
+    frame = {next_, next_ / (rate_ > 0.0 ? rate_ : kPictureRate), cv::Mat(), ""};
+    if (unreadable_ > 0) {
+      frame.fault = "frame " + std::to_string(next_) + " of " + path_ + " cannot be decoded";
+      --unreadable_;
+    } else {
+      cv::swap(frame.image, ahead_);
+    }
     ++next_;
     return true;
   }
 
   double rate() const override { return rate_; }
 
-  /// Containers are often wrong about it, so it serves the progress bar only.
+  /// Containers are often wrong about it: it bounds the search for further frames, no more.
   int count() const override {
     return std::max(0, static_cast<int>(video_.get(cv::CAP_PROP_FRAME_COUNT)));
   }
 
+  /// Decoders leave out some damaged frames without a word, so that the later ones move up.
+  std::string shortfall() const override {
+    if (next_ >= count()) return "";
+    return path_ + " promises " + std::to_string(count()) + " frames, only " +
+           std::to_string(next_) +
+           " came: if it is damaged, frames behind the damage may have numbers that are too low";
+  }
+
  private:
+  /// Reads on to the next frame that can be decoded; false if there is none. Only a frame behind
+  /// them shows that those that could not be read are there at all.
+  bool readAhead() {
+    while (!video_.read(ahead_)) {
+      ++unreadable_;
+      if (next_ + unreadable_ < count()) continue;
+      unreadable_ = 0;
+      return false;
+    }
+    return true;
+  }
+
+  std::string path_;
   cv::VideoCapture video_;
-  double rate_ = 0.0;  // unless it tells one
+  cv::Mat ahead_;       // behind the unreadable frames
+  int unreadable_ = 0;  // frames from next_ on
+  double rate_ = 0.0;   // unless it tells one
   int next_ = 0;
 };
 
@@ -121,6 +149,7 @@ class GreyFrames : public FrameSource {
 
   int count() const override { return frames_->count(); }
   double rate() const override { return frames_->rate(); }
+  std::string shortfall() const override { return frames_->shortfall(); }
 
  private:
   std::unique_ptr<FrameSource> frames_;

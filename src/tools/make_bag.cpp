@@ -46,6 +46,8 @@ struct Options {
   throw std::runtime_error(file + ": " + fault);
 }
 
+void warn(const std::string& message) { std::cerr << "make_bag: " << message << "\n"; }
+
 double chooseFps(const FrameSource& source, const Options& options) {
   if (options.fps > 0.0) return options.fps;
   if (source.rate() > 0.0) return source.rate();
@@ -60,17 +62,23 @@ sensor_msgs::ImagePtr toMsg(const cv::Mat& frame, const ros::Time& stamp,
   return cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, frame).toImageMsg();
 }
 
-/// Returns the number of frames written.
+/// Returns the number of frames written. One that cannot be read is told and left out: the others
+/// keep their stamps.
 int writeBag(const std::string& file, FrameSource& source, double fps, const Options& options) {
   rosbag::Bag bag(file, rosbag::bagmode::Write);
   int count = 0;
   SourceFrame frame;
-  for (; count < options.max_frames && source.next(frame); ++count) {
-    if (!frame.fault.empty()) throw std::runtime_error(frame.fault);
+  while (count < options.max_frames && source.next(frame)) {
+    if (!frame.fault.empty()) {
+      warn("left out: " + frame.fault);
+      continue;
+    }
     ros::Time stamp;
-    stamp.fromNSec(kFirstStampNsec + static_cast<uint64_t>(std::llround(count * 1e9 / fps)));
+    stamp.fromNSec(kFirstStampNsec + static_cast<uint64_t>(std::llround(frame.index * 1e9 / fps)));
     bag.write(options.topic, stamp, toMsg(frame.image, stamp, options.frame_id));
+    ++count;
   }
+  if (count < options.max_frames && !source.shortfall().empty()) warn(source.shortfall());
   return count;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/evaluation/frame_source.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -40,6 +41,28 @@ class FrameSources : public testing::Test {
     cv::VideoWriter writer(path, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10.0, {64, 48});
     EXPECT_TRUE(writer.isOpened());
     for (const int level : {50, 100, 150}) writer.write(picture(level));
+    return path;
+  }
+
+  /// Twenty noisy frames of the levels 0, 10, ..., 190, of whose bytes those from 0.4 to 0.6 of the
+  /// file are overwritten.
+  std::string writeDamagedVideo(const std::string& name, const std::string& codec) const {
+    std::string path = (folder_ / name).string();
+    {
+      const int fourcc = cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]);
+      cv::VideoWriter writer(path, fourcc, 10.0, {64, 48});
+      EXPECT_TRUE(writer.isOpened());
+      cv::RNG rng(1);
+      for (int level = 0; level < 200; level += 10) {
+        cv::Mat noise(48, 64, CV_8UC3);
+        rng.fill(noise, cv::RNG::UNIFORM, 0, 60);
+        writer.write(noise + cv::Scalar::all(level - 30));
+      }
+    }
+    const auto size = static_cast<std::streamoff>(fs::file_size(path));
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(size * 4 / 10);
+    file << std::string(static_cast<std::size_t>(size / 5), '\xff');
     return path;
   }
 
@@ -137,6 +160,40 @@ TEST_F(FrameSources, AVideoHasItsOwnRate) {
     EXPECT_NEAR(levelOf(frames[1]), 100, 3);
     EXPECT_NEAR(frames[2].time_sec, 0.2, 1e-6);
   }
+}
+
+TEST_F(FrameSources, FramesBehindUndecodableOnesKeepTheirNumbers) {
+  const std::vector<SourceFrame> frames = all(writeDamagedVideo("clip.mp4", "mp4v"));
+  const auto damaged = std::find_if(frames.begin(), frames.end(),
+                                    [](const SourceFrame& frame) { return !frame.fault.empty(); });
+  if (damaged == frames.end()) GTEST_SKIP() << "this decoder leaves out damage without a word";
+  EXPECT_TRUE(damaged->image.empty());
+  EXPECT_EQ(damaged->fault, "frame " + std::to_string(damaged->index) + " of " +
+                                (folder_ / "clip.mp4").string() + " cannot be decoded");
+  ASSERT_EQ(frames.size(), 20U);
+  EXPECT_EQ(frames.back().index, 19);
+  EXPECT_NEAR(frames.back().time_sec, 1.9, 1e-6);
+  EXPECT_NEAR(levelOf(frames.back()), 187, 4);
+}
+
+TEST_F(FrameSources, AVideoWithFewerFramesThanPromisedIsTold) {
+  const std::string path = writeDamagedVideo("clip.avi", "MJPG");
+  const auto source = greyFrames(openFrames(path));
+  SourceFrame frame;
+  int count = 0;
+  while (source->next(frame)) ++count;
+  ASSERT_LT(count, 20);
+  EXPECT_EQ(source->shortfall().rfind(
+                path + " promises 20 frames, only " + std::to_string(count) + " came: ", 0),
+            0U)
+      << source->shortfall();
+}
+
+TEST_F(FrameSources, AWholeVideoHasNoShortfall) {
+  const auto source = openFrames(writeVideo("clip.avi"));
+  SourceFrame frame;
+  while (source->next(frame)) EXPECT_EQ(frame.fault, "");
+  EXPECT_EQ(source->shortfall(), "");
 }
 
 TEST_F(FrameSources, PicturesComeBeforeAVideo) {

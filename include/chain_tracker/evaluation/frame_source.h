@@ -29,6 +29,9 @@ class FrameSource {
 
   /// Frames a second, or 0 if it is not known or not constant.
   virtual double rate() const { return 0.0; }
+
+  /// Asked after the last frame: a sentence if fewer came than the source promises, else empty.
+  virtual std::string shortfall() const { return ""; }
 };
 
 /// The frames of a sequence folder (img/*.jpg, *.png or *.bmp in natural order of their

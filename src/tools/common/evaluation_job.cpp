@@ -155,6 +155,14 @@ int lastOf(const GroundTruth& truth) {
 
 void warnOfGaps(const Input& input, const EvaluationResult& result, const EvaluationJob& job) {
   for (const std::string& fault : result.faults) warn(fault);
+  if (result.skipped_frames > 0) {
+    warn("frames skipped: " + std::to_string(result.skipped_frames) +
+         "; the others keep their numbers");
+  }
+  if (!result.interrupted && job.max_frames == 0) {
+    const std::string shortfall = input.frames->shortfall();
+    if (!shortfall.empty()) warn(shortfall);
+  }
   if (result.interrupted) warn("interrupted: the results are those of the frames so far");
   if (result.dropped_frames > 0) {
     warn("the recorded tracker dropped " + std::to_string(result.dropped_frames) +
