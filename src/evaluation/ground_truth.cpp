@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
 
 #include <yaml-cpp/yaml.h>
@@ -53,7 +55,18 @@ bool hasNan(const std::vector<double>& numbers) {
   return std::any_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); });
 }
 
-bool isIndex(double number) { return number >= 0.0 && number == std::floor(number); }
+constexpr int kHighestIndex = std::numeric_limits<int>::max();
+
+bool isIndex(double number) {
+  return number >= 0.0 && number <= kHighestIndex && number == std::floor(number);
+}
+
+int indexFrom(double number, const std::string& name, const std::string& path, int line) {
+  if (isIndex(number)) return static_cast<int>(number);
+  std::ostringstream reason;
+  reason << name << " is " << number << ", must be a whole number in [0, " << kHighestIndex << "]";
+  refuse(path, line, reason.str());
+}
 
 std::vector<cv::Point2d> cornersIn(const std::vector<double>& n) {
   return {{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}, {n[6], n[7]}};
@@ -139,11 +152,9 @@ void readPoints(const std::string& path, GroundTruth& truth) {
     if (n.size() != 5) {
       refuse(path, number, "has " + std::to_string(n.size()) + " numbers, must have 5: " + header);
     }
-    if (hasNan(n)) continue;
-    if (!isIndex(n[0]) || !isIndex(n[1])) {
-      refuse(path, number, "frame and part must be whole numbers from 0 on");
-    }
-    truth.points[static_cast<int>(n[0])][static_cast<int>(n[1])] = {{n[2], n[3]}, n[4] != 0.0};
+    const int frame = indexFrom(n[0], "frame", path, number);
+    const int part = indexFrom(n[1], "part", path, number);
+    if (!hasNan(n)) truth.points[frame][part] = {{n[2], n[3]}, n[4] != 0.0};
   }
 }
 

@@ -114,12 +114,14 @@ TEST_F(GroundTruthFiles, FaultyPointsAreNamedByFileAndLine) {
   EXPECT_EQ(omissionsOf(refusalOf([&] { pointsIn(header + "0,0,1,2,1\n0,1,a,2,1\n"); }),
                         {place + ":3: '0,1,a,2,1' has"}),
             "");
-  EXPECT_EQ(omissionsOf(refusalOf([&] { pointsIn(header + "-1,0,1,2,1\n"); }),
-                        {place + ":2: frame and part must be whole"}),
-            "");
-  EXPECT_EQ(omissionsOf(refusalOf([&] { pointsIn(header + "0.5,0,1,2,1\n"); }),
-                        {place + ":2: frame and part must be whole"}),
-            "");
+  for (const std::string index : {"-1", "0.5", "inf", "1e+300", "nan"}) {
+    EXPECT_EQ(omissionsOf(refusalOf([&] { pointsIn(header + index + ",0,1,2,1\n"); }),
+                          {place + ":2: frame is " + index, "must be a whole number in [0, "}),
+              "");
+    EXPECT_EQ(omissionsOf(refusalOf([&] { pointsIn(header + "0," + index + ",1,2,1\n"); }),
+                          {place + ":2: part is " + index, "must be a whole number in [0, "}),
+              "");
+  }
 }
 
 TEST_F(GroundTruthFiles, AFolderMayHaveEitherFileBothOrNone) {
