@@ -88,8 +88,15 @@ std::vector<cv::Point2d> pointsIn(const YAML::Node& node, const std::string& pat
   return points;
 }
 
-SequenceStart readInit(const std::string& path) {
+/// What init.yaml says.
+struct Init {
   SequenceStart start;
+  int first_frame_line = 0;  ///< 0: it does not say first_frame
+};
+
+Init readInit(const std::string& path) {
+  Init init;
+  SequenceStart& start = init.start;
   try {
     const YAML::Node document = YAML::LoadFile(path);
     for (const auto& entry : document) {
@@ -98,8 +105,9 @@ SequenceStart readInit(const std::string& path) {
         start.model = entry.second.as<std::string>();
       } else if (key == "first_frame") {
         start.first_frame = entry.second.as<int>();
+        init.first_frame_line = entry.second.Mark().line + 1;
         if (start.first_frame < 0) {
-          refuse(path, entry.second.Mark().line + 1,
+          refuse(path, init.first_frame_line,
                  "first_frame is " + std::to_string(start.first_frame) + ", must be at least 0");
         }
       } else if (key == "points") {
@@ -112,7 +120,48 @@ SequenceStart readInit(const std::string& path) {
   } catch (const YAML::Exception& error) {
     refuse(path, error.mark.line + 1, error.msg);
   }
-  return start;
+  return init;
+}
+
+/// All parts of the frame in order; empty unless all are there.
+std::vector<cv::Point2d> partsAt(int frame, std::size_t count, const GroundTruth& truth) {
+  std::vector<cv::Point2d> parts;
+  const auto points = truth.points.find(frame);
+  if (points == truth.points.end() || points->second.size() != count) return parts;
+  parts.reserve(count);
+  for (const auto& point : points->second) parts.push_back(point.second.position);
+  return parts;
+}
+
+std::vector<cv::Point2d> boxAt(int frame, const GroundTruth& truth) {
+  const auto box = truth.boxes.find(frame);
+  if (box == truth.boxes.end() || !box->second) return {};
+  return frame == 0 && !truth.first_polygon.empty() ? truth.first_polygon : cornersOf(*box->second);
+}
+
+/// The shape of the object in a frame; empty if the truth does not know it. Where there are parts a
+/// box does not stand for them: its corners are other points.
+std::vector<cv::Point2d> shapeAt(int frame, const GroundTruth& truth) {
+  const std::size_t count = partCount(truth);
+  return count > 0 ? partsAt(frame, count, truth) : boxAt(frame, truth);
+}
+
+std::optional<int> firstKnownFrame(const GroundTruth& truth) {
+  const std::size_t count = partCount(truth);
+  for (const auto& [frame, points] : truth.points) {
+    if (points.size() == count) return frame;
+  }
+  if (count > 0) return std::nullopt;
+  for (const auto& [frame, box] : truth.boxes) {
+    if (box) return frame;
+  }
+  return std::nullopt;
+}
+
+std::string neededIn(const GroundTruth& truth) {
+  const std::size_t count = partCount(truth);
+  return count > 0 ? "a frame with all the " + std::to_string(count) + " parts of the ground truth"
+                   : "a frame with a box of the ground truth";
 }
 
 }  // namespace
@@ -158,6 +207,14 @@ void readPoints(const std::string& path, GroundTruth& truth) {
   }
 }
 
+std::size_t partCount(const GroundTruth& truth) {
+  std::size_t count = 0;
+  for (const auto& [frame, points] : truth.points) {
+    if (!points.empty()) count = std::max(count, std::size_t(points.rbegin()->first) + 1);
+  }
+  return count;
+}
+
 GroundTruth readGroundTruth(const std::string& folder) {
   GroundTruth truth;
   const std::string boxes = (fs::path(folder) / "groundtruth_rect.txt").string();
@@ -168,25 +225,21 @@ GroundTruth readGroundTruth(const std::string& folder) {
 }
 
 std::optional<SequenceStart> readStart(const std::string& folder, const GroundTruth& truth) {
-  const fs::path init = fs::path(folder) / "init.yaml";
-  SequenceStart start;
-  if (fs::exists(init)) start = readInit(init.string());
+  const std::string path = (fs::path(folder) / "init.yaml").string();
+  Init init;
+  if (fs::exists(path)) init = readInit(path);
+  SequenceStart& start = init.start;
   if (!start.points.empty()) return start;
-  if (!truth.points.empty()) {
-    start.first_frame = truth.points.begin()->first;
-    for (const auto& point : truth.points.begin()->second) {
-      start.points.push_back(point.second.position);
-    }
-    return start;
+  if (truth.empty()) return std::nullopt;
+  if (init.first_frame_line == 0) {
+    const std::optional<int> first = firstKnownFrame(truth);
+    if (!first) return std::nullopt;
+    start.first_frame = *first;
   }
-  for (const auto& [frame, box] : truth.boxes) {
-    if (!box) continue;
-    start.first_frame = frame;
-    start.points =
-        frame == 0 && !truth.first_polygon.empty() ? truth.first_polygon : cornersOf(*box);
-    return start;
-  }
-  return std::nullopt;
+  start.points = shapeAt(start.first_frame, truth);
+  if (!start.points.empty()) return start;
+  refuse(path, init.first_frame_line,
+         "first_frame is " + std::to_string(start.first_frame) + ", must be " + neededIn(truth));
 }
 
 }  // namespace chain_tracker

@@ -174,11 +174,53 @@ TEST_F(GroundTruthFiles, WithoutInitTheFirstTruthStarts) {
   EXPECT_EQ(points->points, (std::vector<cv::Point2d>{{1, 2}, {5, 6}}));
 }
 
+TEST_F(GroundTruthFiles, PartsStartInTheFirstFrameThatHasThemAll) {
+  GroundTruth truth = pointsIn(
+      "frame,part,x,y,visible\n2,0,1,1,1\n2,2,3,3,1\n3,0,nan,nan,0\n3,1,2,2,1\n3,2,3,3,1\n"
+      "4,0,4,4,1\n4,1,5,5,0\n4,2,6,6,1\n");
+  EXPECT_EQ(partCount(truth), 3U);
+  const auto start = readStart(folder_.string(), truth);
+  ASSERT_TRUE(start);
+  EXPECT_EQ(start->first_frame, 4);
+  EXPECT_EQ(start->points, (std::vector<cv::Point2d>{{4, 4}, {5, 5}, {6, 6}}));
+  truth.points.erase(4);
+  truth.boxes[2] = cv::Rect2d(1, 2, 30, 40);
+  EXPECT_FALSE(readStart(folder_.string(), truth)) << "corners are no parts";
+}
+
 TEST_F(GroundTruthFiles, InitWithoutPointsLeavesThemToTheTruth) {
   write("init.yaml", "model: cable\n");
   const auto start = readStart(folder_.string(), boxesIn("1,2,30,40\n"));
   EXPECT_EQ(start->model, "cable");
   EXPECT_EQ(start->points.size(), 4U);
+}
+
+TEST_F(GroundTruthFiles, InitWithoutPointsMaySayTheirFrame) {
+  write("init.yaml", "model: cable\nfirst_frame: 1\n");
+  const std::string folder = folder_.string();
+  const auto box = readStart(folder, boxesIn("1,2,30,40\n5,6,30,40\n"));
+  EXPECT_EQ(box->first_frame, 1);
+  EXPECT_EQ(box->points.front(), cv::Point2d(5, 6));
+  const auto parts = readStart(
+      folder, pointsIn("frame,part,x,y,visible\n0,0,1,2,1\n0,1,3,4,1\n1,0,5,6,1\n1,1,7,8,1\n"));
+  EXPECT_EQ(parts->first_frame, 1);
+  EXPECT_EQ(parts->points, (std::vector<cv::Point2d>{{5, 6}, {7, 8}}));
+}
+
+TEST_F(GroundTruthFiles, TheFrameThatInitSaysMustHaveTruth) {
+  write("init.yaml", "model: cable\nfirst_frame: 1\n");
+  const std::string place = (folder_ / "init.yaml").string() + ":2: first_frame is 1, must be ";
+  const auto start = [&](const GroundTruth& truth) { readStart(folder_.string(), truth); };
+  EXPECT_EQ(omissionsOf(refusalOf([&] { start(boxesIn("1,2,30,40\nnan,nan,nan,nan\n")); }),
+                        {place + "a frame with a box of the ground truth"}),
+            "");
+  EXPECT_EQ(
+      omissionsOf(refusalOf([&] {
+                    start(pointsIn("frame,part,x,y,visible\n0,0,1,2,1\n0,1,3,4,1\n1,1,7,8,1\n"));
+                  }),
+                  {place + "a frame with all the 2 parts of the ground truth"}),
+      "");
+  EXPECT_FALSE(readStart(folder_.string(), GroundTruth())) << "there may be --points";
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 /// What is known about a sequence: boxes, material points, and how to start.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,6 +29,9 @@ struct GroundTruth {
   bool empty() const { return boxes.empty() && points.empty(); }
 };
 
+/// Parts that the truth tells of, 0 to this - 1, whether or not each is there in every frame.
+std::size_t partCount(const GroundTruth& truth);
+
 /// How a sequence wants to be started (its init.yaml, or its first truth).
 struct SequenceStart {
   std::string model = "auto";
@@ -47,8 +51,10 @@ void readPoints(const std::string& path, GroundTruth& truth);
 /// The truth in a sequence folder, from either file or both; empty if it has none.
 GroundTruth readGroundTruth(const std::string& folder);
 
-/// From the folder's init.yaml or, without one, from the first box or points of the truth.
-/// nullopt if there is neither. Throws std::invalid_argument for a faulty init.yaml.
+/// From the folder's init.yaml. Points that it leaves out are those of the truth: all parts, or the
+/// box of a truth without parts, in its first_frame or, without one, in the first frame with them.
+/// nullopt if there are none. Throws std::invalid_argument for a faulty init.yaml, also if the
+/// truth does not know the object in its first_frame.
 std::optional<SequenceStart> readStart(const std::string& folder, const GroundTruth& truth);
 
 }  // namespace chain_tracker

@@ -120,10 +120,11 @@ SequenceStart startOf(const EvaluationJob& job, const Input& input) {
   }
   if (!job.model.empty()) start.model = job.model;
   if (start.points.empty()) {
+    const std::string incomplete =
+        input.truth.points.empty() ? "" : " (no frame of the truth has all of its parts)";
     throw std::invalid_argument(
-        input.name +
-        " has neither ground truth nor an init.yaml that say where the object is: "
-        "give --points x,y,x,y,... or --ground-truth");
+        input.name + " has neither ground truth nor an init.yaml that say where the object is" +
+        incomplete + ": give --points x,y,x,y,... or --ground-truth");
   }
   return start;
 }

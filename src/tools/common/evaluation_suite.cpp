@@ -45,7 +45,9 @@ std::vector<std::string> foldersIn(const std::string& suite) {
 
 bool canStart(const std::string& folder) {
   try {
-    return readStart(folder, readGroundTruth(folder)).has_value();
+    // What has truth but no start is a fault of its own, which the run will tell.
+    const GroundTruth truth = readGroundTruth(folder);
+    return !truth.empty() || readStart(folder, truth).has_value();
   } catch (const std::invalid_argument&) {
     return true;  // the run itself will tell what is wrong with its files
   }
