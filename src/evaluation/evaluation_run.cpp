@@ -5,6 +5,7 @@
 #include <chrono>
 #include <exception>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "chain_tracker/image/pixel_geometry.h"
@@ -31,6 +32,34 @@ std::vector<cv::Point2d> visiblePoints(const std::map<int, TruePoint>& points) {
     if (entry.second.visible) visible.push_back(entry.second.position);
   }
   return visible;
+}
+
+/// The box that stands for the points seen; nullopt if they are too few to have one.
+std::optional<cv::Rect2d> boxOf(const std::map<int, TruePoint>& points) {
+  const std::vector<cv::Point2d> visible = visiblePoints(points);
+  if (visible.size() < 2) return std::nullopt;
+  return boxAround(visible);
+}
+
+/// The truth in boxes alone: those around its points where it has no others.
+GroundTruth boxesOf(const GroundTruth& truth) {
+  GroundTruth boxes;
+  boxes.boxes = truth.boxes;
+  for (const auto& [frame, points] : truth.points) {
+    if (const auto box = boxOf(points)) boxes.boxes.emplace(frame, box);
+  }
+  return boxes;
+}
+
+/// What can be scored of a tracker that carries so many points. A point is scored with the part of
+/// its number, which is another place where the object was given by other points than the parts.
+GroundTruth scorableTruth(const GroundTruth& truth, std::size_t carried, EvaluationResult& result) {
+  const std::size_t parts = partCount(truth);
+  if (parts == 0 || carried == 0 || carried == parts) return truth;
+  result.faults.push_back("points are not scored, only boxes: the object is given by " +
+                          std::to_string(carried) + " points, must be by the " +
+                          std::to_string(parts) + " parts of the ground truth");
+  return boxesOf(truth);
 }
 
 void scoreBox(const cv::Rect2d& box, const cv::Rect2d& truth, bool lost, FrameScore& score) {
@@ -90,6 +119,12 @@ void forEachFrame(FrameSource& frames, const EvaluationOptions& options, Evaluat
   throw std::invalid_argument("the object is given in frame " +
                               std::to_string(options.first_frame) + ", counted from 0, of only " +
                               std::to_string(read));
+}
+
+std::size_t pointsCarriedIn(const std::map<int, RecordedFrame>& recording) {
+  std::size_t count = 0;
+  for (const auto& entry : recording) count = std::max(count, entry.second.tracked.points.size());
+  return count;
 }
 
 TrackedFrame nothingKnown() {
@@ -158,9 +193,8 @@ FrameScore scoreFrame(const TrackedFrame& tracked, const GroundTruth& truth, int
     if (box->second) scoreBox(tracked.box, *box->second, tracked.lost, score);
     score.has_absence = !box->second;
   } else if (points != truth.points.end()) {
-    const std::vector<cv::Point2d> visible = visiblePoints(points->second);
-    if (visible.size() >= 2) {
-      scoreBox(pointBox(tracked), boxAround(visible), tracked.lost, score);
+    if (const auto around = boxOf(points->second)) {
+      scoreBox(pointBox(tracked), *around, tracked.lost, score);
     }
   }
   return score;
@@ -179,6 +213,7 @@ EvaluationResult evaluate(FrameSource& frames,
                           const EvaluationOptions& options) {
   EvaluationResult result;
   for (const auto& tracker : trackers) result.runs.push_back({tracker->name(), {}, {}, ""});
+  const GroundTruth scorable = scorableTruth(truth, start.size(), result);
   cv::Size size;
   forEachFrame(frames, options, result, [&](const SourceFrame& frame) {
     if (size.empty()) size = frame.image.size();
@@ -188,7 +223,7 @@ EvaluationResult evaluate(FrameSource& frames,
     }
     for (std::size_t i = 0; i < trackers.size(); ++i) {
       TrackerRun& run = result.runs[i];
-      process(*trackers[i], frame, i == 0 && run.frames.empty(), truth, run);
+      process(*trackers[i], frame, i == 0 && run.frames.empty(), scorable, run);
     }
     if (options.observer) options.observer(frame, result.runs.front().frames.back().tracked);
   });
@@ -201,6 +236,7 @@ EvaluationResult scoreRecording(FrameSource& frames, const std::map<int, Recorde
                                 const EvaluationOptions& options) {
   EvaluationResult result;
   result.runs.push_back({"chain_tracker", {}, {}, ""});
+  const GroundTruth scorable = scorableTruth(truth, pointsCarriedIn(recording), result);
   forEachFrame(frames, options, result, [&](const SourceFrame& frame) {
     const auto recorded = recording.find(frame.index);
     if (recorded == recording.end()) {
@@ -209,7 +245,7 @@ EvaluationResult scoreRecording(FrameSource& frames, const std::map<int, Recorde
     }
     const auto& [time_ms, tracked] = recorded->second;
     result.runs.front().frames.push_back(
-        {frame.index, time_ms, tracked, scoreFrame(tracked, truth, frame.index)});
+        {frame.index, time_ms, tracked, scoreFrame(tracked, scorable, frame.index)});
     if (options.observer) options.observer(frame, tracked);
   });
   finish(objectLength(start, truth.points.empty()), result);

@@ -98,9 +98,35 @@ GroundTruth boxesAt0(const std::set<int>& frames) {
 
 const std::vector<cv::Point2d> kStart = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
 
+/// The points that at() carries.
+const std::vector<cv::Point2d> kEnds = {{0, 5}, {10, 5}};
+
 EvaluationResult run(FakeSource source, const Trackers& trackers, const GroundTruth& truth,
-                     const EvaluationOptions& options = EvaluationOptions()) {
-  return evaluate(source, trackers, truth, kStart, options);
+                     const EvaluationOptions& options = EvaluationOptions(),
+                     const std::vector<cv::Point2d>& start = kStart) {
+  return evaluate(source, trackers, truth, start, options);
+}
+
+/// Three parts in two frames, and a box of its own in the first.
+GroundTruth threeParts() {
+  GroundTruth truth = boxesAt0({0});
+  truth.points[0] = {{0, {{0, 5}, true}}, {1, {{5, 5}, true}}, {2, {{10, 5}, true}}};
+  truth.points[1] = {{0, {{0, 0}, true}}, {1, {{5, 10}, true}}, {2, {{10, 0}, false}}};
+  return truth;
+}
+
+void expectBoxesScoredOnly(const EvaluationResult& result) {
+  const TrackerRun& run = result.runs.front();
+  EXPECT_TRUE(std::isnan(run.scores.part_error_mean_px));
+  EXPECT_TRUE(std::isnan(run.scores.pck_10));
+  EXPECT_DOUBLE_EQ(run.frames[0].score.overlap, 1.0);
+  ASSERT_TRUE(run.frames[1].score.has_object) << "of two points seen";
+  // The box at 0 to 10 of the tracker, and -0.25 to 5.25 by -0.5 to 10.5 of the points.
+  EXPECT_NEAR(run.frames[1].score.overlap, 52.5 / (100.0 + 60.5 - 52.5), 1e-9);
+  ASSERT_EQ(result.faults.size(), 1U);
+  EXPECT_EQ(result.faults[0],
+            "points are not scored, only boxes: the object is given by 2 points, must be by the 3 "
+            "parts of the ground truth");
 }
 
 TEST(EvaluationRun, KnownBoxesGetKnownScores) {
@@ -145,13 +171,19 @@ TEST(EvaluationRun, PointsAreScoredOneByOneAndAsTheirBox) {
   GroundTruth truth;
   truth.points[0] = {{0, {{0, 5}, true}}, {1, {{10, 5}, true}}};
   truth.points[1] = {{0, {{0, 2}, true}}, {1, {{10, 5}, false}}};
-  const auto result = run(FakeSource(2), only({at(0.0), at(0.0)}), truth);
+  const auto result = run(FakeSource(2), only({at(0.0), at(0.0)}), truth, {}, kEnds);
+  EXPECT_TRUE(result.faults.empty());
   const auto& frames = result.runs.front().frames;
   EXPECT_EQ(frames[0].score.point_errors, (std::vector<double>{0.0, 0.0}));
   EXPECT_DOUBLE_EQ(frames[0].score.overlap, 1.0) << "the same points, the same box around them";
   EXPECT_EQ(frames[1].score.point_errors, std::vector<double>{3.0}) << "a hidden one is not asked";
   EXPECT_FALSE(frames[1].score.has_object) << "one point has no box";
   EXPECT_DOUBLE_EQ(result.runs.front().scores.part_error_mean_px, 1.0);
+}
+
+TEST(EvaluationRun, PointsOfAnotherNumberThanThePartsAreNotScored) {
+  expectBoxesScoredOnly(
+      run(FakeSource(2), only({at(0.0), at(0.0)}), threeParts(), EvaluationOptions(), kEnds));
 }
 
 TEST(EvaluationRun, BoxAroundPointsIsATenthLarger) {
@@ -272,6 +304,13 @@ TEST(ScoreRecording, FramesWithoutAReportAreDropsAndDoNotCount) {
   EXPECT_EQ(scores.lost_frames, 1);
   EXPECT_DOUBLE_EQ(scores.latency_p50_ms, 3.0) << "of the updates, without the start";
   EXPECT_EQ(result.runs.front().frames[1].index, 1);
+}
+
+TEST(ScoreRecording, PointsOfAnotherNumberThanThePartsAreNotScored) {
+  FakeSource source(2);
+  const std::map<int, RecordedFrame> recording = {{0, {9.0, at(0.0)}}, {1, {2.0, at(0.0)}}};
+  expectBoxesScoredOnly(
+      scoreRecording(source, recording, threeParts(), kStart, EvaluationOptions()));
 }
 
 }  // namespace

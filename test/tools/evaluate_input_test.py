@@ -104,6 +104,17 @@ class BadInput(ProgramTest):
         said = self.evaluate_folder(self.good, "--points", "-5,10,1000,20", code=2)
         self.assertIn("must lie at least half inside the 320x240 image", said)
 
+    def test_other_points_than_the_parts_of_the_truth(self):
+        box = (self.good / "groundtruth_rect.txt").read_text().splitlines()[0]
+        x, y, width, height = map(float, box.split(","))
+        corners = f"{x},{y},{x + width},{y},{x + width},{y + height},{x},{y + height}"
+        said = self.evaluate_folder(self.good, "--points", corners)
+        self.assertIn("the object is given by 4 points, must be by the 2 parts", said)
+        summary = summary_in(self.out)
+        self.assertIsNone(summary["pck_10"])
+        self.assertIsNone(summary["part_error_px"]["mean"])
+        self.assertEqual(summary["scored_frames"], 20)
+
     def test_wrong_usage(self):
         for arguments in ([], ["--bag", self.bag], ["--sequence", self.good, "--bag", self.bag],
                           ["--sequence", self.good, "--baselines", "goturn"],

@@ -47,7 +47,7 @@ struct EvaluationOptions {
 
 struct EvaluationResult {
   std::vector<TrackerRun> runs;     ///< in the order of the trackers
-  std::vector<std::string> faults;  ///< of frames and trackers, one line each
+  std::vector<std::string> faults;  ///< of frames, trackers and the truth, one line each
   int skipped_frames = 0;           ///< could not be read or had another size than the first
   int dropped_frames = 0;           ///< of a recording: could be read, but nothing was reported
   bool interrupted = false;
@@ -56,7 +56,8 @@ struct EvaluationResult {
 /// Runs the trackers, the first of which is the chain tracker, and scores each frame.
 /// `start`: the shape that initialised them, whose length the PCK refers to.
 /// Where the truth has points but no boxes, boxes are the upright bounds of the visible points
-/// grown by 10 %, for the truth and for the carried points alike.
+/// grown by 10 %, for the truth and for the carried points alike. Point k is scored with part k:
+/// where they differ in number, only boxes are scored, and that is told among the faults.
 /// A tracker that fails on a frame has lost the object from there on; its fault is told.
 /// Throws std::invalid_argument if the frame that the object is given in cannot be read or does not
 /// exist, or if the chain tracker cannot be started there.
