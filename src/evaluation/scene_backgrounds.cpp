@@ -91,19 +91,20 @@ cv::Mat3b paintDesk(const cv::Size& size, cv::RNG& rng) {
 cv::Mat3b paintWorkshop(const cv::Size& size, cv::RNG& rng) {
   const double unit = unitOf(size);
   const auto px = [&](double length) { return cvRound(length * unit); };
+  const auto stroke = [&](double width) { return std::max(1, px(width)); };
   cv::Mat3b hall = paintMottle(size, {128.0, 132.0, 130.0}, 9.0, rng);
   const int floor = size.height * 7 / 10;
   const cv::Rect ground(0, floor, size.width, size.height - floor);
   paintMottle(ground.size(), {92.0, 100.0, 104.0}, 10.0, rng).copyTo(hall(ground));
   for (int x = 0; x < size.width; x += px(120.0)) {
-    cv::line(hall, {x, 0}, {x, floor}, {105.0, 108.0, 108.0}, px(3.0));
+    cv::line(hall, {x, 0}, {x, floor}, {105.0, 108.0, 108.0}, stroke(3.0));
   }
   for (int i = 0; i < 9; ++i) {
     const cv::Size crate(px(rng.uniform(40.0, 120.0)), px(rng.uniform(40.0, 150.0)));
     const cv::Point corner(rng.uniform(-40, size.width), floor - crate.height + px(15.0));
     const cv::Scalar color = 0.8 * mutedColor(rng) + cv::Scalar(15.0, 18.0, 20.0);
     cv::rectangle(hall, cv::Rect(corner, crate), color, cv::FILLED);
-    cv::rectangle(hall, cv::Rect(corner, crate), 0.6 * color, px(3.0));
+    cv::rectangle(hall, cv::Rect(corner, crate), 0.6 * color, stroke(3.0));
     cv::rectangle(hall, cv::Rect(corner, cv::Size(crate.width, px(7.0))), 1.25 * color, cv::FILLED);
     cv::rectangle(hall,
                   cv::Rect(corner + cv::Point(crate.width / 5, crate.height / 3),
@@ -114,11 +115,11 @@ cv::Mat3b paintWorkshop(const cv::Size& size, cv::RNG& rng) {
     const int y = px(rng.uniform(15.0, 160.0));
     const cv::Scalar color(rng.uniform(90.0, 190.0), rng.uniform(90.0, 180.0),
                            rng.uniform(80.0, 190.0));
-    cv::line(hall, {0, y}, {size.width, y + px(rng.uniform(-8.0, 8.0))}, color, px(9.0));
-    cv::line(hall, {0, y - px(3.0)}, {size.width, y - px(3.0)}, 1.2 * color, px(2.0));
+    cv::line(hall, {0, y}, {size.width, y + px(rng.uniform(-8.0, 8.0))}, color, stroke(9.0));
+    cv::line(hall, {0, y - px(3.0)}, {size.width, y - px(3.0)}, 1.2 * color, stroke(2.0));
   }
   cv::line(hall, {0, floor + px(50.0)}, {size.width, floor + px(90.0)}, {60.0, 190.0, 215.0},
-           px(10.0));
+           stroke(10.0));
   soften(2.6 * unit, hall);
   addGrain(1.5, 1.0, rng, hall);
   shadeUnevenly(0.5, rng, hall);

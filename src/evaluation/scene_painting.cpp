@@ -127,9 +127,11 @@ Sprite::Sprite(const cv::Mat4b& covered, const cv::Point2d& center, double pixel
   cv::Mat4b level;
   cv::copyMakeBorder(covered, level, 0, missing(covered.rows), 0, missing(covered.cols),
                      cv::BORDER_CONSTANT, cv::Scalar::all(0.0));
-  for (int i = 0; i < kLevels; ++i) {
-    levels_.push_back(level.clone());
-    cv::resize(level, level, level.size() / 2, 0.0, 0.0, cv::INTER_AREA);
+  levels_.push_back(level);
+  while (levels_.size() < kLevels) {
+    cv::Mat4b halved;
+    cv::resize(levels_.back(), halved, levels_.back().size() / 2, 0.0, 0.0, cv::INTER_AREA);
+    levels_.push_back(halved);
   }
 }
 

@@ -51,6 +51,23 @@ TEST_P(EveryScene, SameQuestionSamePicture) {
   }
 }
 
+TEST_P(EveryScene, IsRenderedInSmallImagesToo) {
+  for (const cv::Size size : {cv::Size(64, 64), cv::Size(160, 120), cv::Size(64, 480)}) {
+    for (SceneOptions options : {SceneOptions(), busyOptions()}) {
+      options.size = size;
+      const auto scene = makeScene(GetParam(), options);
+      for (const int index : {0, 1, 30}) {
+        const SceneFrame frame = scene->render(index);
+        EXPECT_EQ(frame.image.size(), size);
+        cv::Scalar mean;
+        cv::Scalar deviation;
+        cv::meanStdDev(frame.image, mean, deviation);
+        EXPECT_GT(deviation[0], 3.0) << size << " shows nothing but noise";
+      }
+    }
+  }
+}
+
 TEST_P(EveryScene, AnotherSeedGivesAnotherPicture) {
   SceneOptions other = cleanSceneOptions();
   other.seed = 2;
