@@ -45,6 +45,16 @@ void writeImage(const cv::Mat3b& image, bool grey, const fs::path& path) {
   if (!good) throw std::runtime_error(path.string() + " cannot be written");
 }
 
+fs::path picturePath(const fs::path& out, int index) {
+  return out / "img" / cv::format("%06d.png", index);
+}
+
+/// Pictures of an earlier, longer scene would be taken for frames of this one. Only files that such
+/// a scene wrote are removed: those that follow without a gap.
+void removePicturesFrom(int index, const fs::path& out) {
+  while (fs::remove(picturePath(out, index))) ++index;
+}
+
 void writeInit(const SyntheticScene& scene, const std::vector<cv::Point2d>& points,
                const fs::path& path) {
   TextFile file(path);
@@ -92,10 +102,11 @@ void writeSceneFolder(const SyntheticScene& scene, const SceneOptions& options,
   for (int index = 0; index < options.frames; ++index) {
     const SceneFrame frame = scene.render(index);
     if (index == 0) writeInit(scene, frame.points, out / "init.yaml");
-    writeImage(frame.image, options.grey, out / "img" / cv::format("%06d.png", index));
+    writeImage(frame.image, options.grey, picturePath(out, index));
     addTruth(frame, index, parts, boxes, segments);
     progress(index + 1);
   }
+  removePicturesFrom(options.frames, out);
   parts.check();
   boxes.check();
   segments.check();

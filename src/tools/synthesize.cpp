@@ -87,7 +87,8 @@ void addOptions(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--frames", arguments.options.frames, "Number of frames")->capture_default_str();
   CLI::Option_group* output = app.add_option_group("output");
-  output->add_option("--out", arguments.out, "Sequence folder to write");
+  output->add_option("--out", arguments.out,
+                     "Sequence folder to write; pictures of a longer scene in it are removed");
   output->add_option("--bag", arguments.bag,
                      std::string("Bag to write: ") + chain_tracker::kSceneImageTopic +
                          " and the truth on " + chain_tracker::kSceneTruthTopic);

@@ -71,6 +71,20 @@ TEST_F(SceneFolder, HoldsPicturesAndTruth) {
   EXPECT_EQ(init[2], "first_frame: 0");
 }
 
+TEST_F(SceneFolder, KeepsNoPicturesOfALongerScene) {
+  SceneOptions options = cleanSceneOptions();
+  options.size = {64, 64};
+  for (const int frames : {5, 3}) {
+    options.frames = frames;
+    writeSceneFolder(*makeScene("bottle", options), options, folder_.string());
+    std::ofstream(folder_ / "img" / "notes.txt") << "not of the scene";
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "img/000002.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "img/000003.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "img/000004.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "img/notes.txt"));
+}
+
 TEST_F(SceneFolder, SaysWhenTheObjectIsAway) {
   SceneOptions options = cleanSceneOptions();
   options.frames = 43;

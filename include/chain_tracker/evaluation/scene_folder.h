@@ -11,7 +11,8 @@ namespace chain_tracker {
 
 /// Renders the scene's first options.frames frames into `folder`, which is made if need be:
 ///
-/// - img/000000.png and so on; with one channel if options.grey
+/// - img/000000.png and so on; with one channel if options.grey. Those that a longer scene has left
+///   in the folder are removed, other files are not
 /// - groundtruth_parts.csv: `frame,part,x,y,visible`
 /// - groundtruth_rect.txt: `x,y,w,h` a frame; NaN,NaN,NaN,NaN while the object is out of view
 /// - groundtruth_segments.csv: `frame,segment,x,y,theta,scale`, as in SceneFrame::segments
