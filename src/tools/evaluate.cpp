@@ -3,6 +3,7 @@
 #include <cmath>
 #include <csignal>
 #include <iostream>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -79,9 +80,9 @@ void addOptions(CLI::App& app, Options& options) {
       ->excludes(recording)
       ->check(CLI::IsMember(chain_tracker::baselineNames()));
   app.add_option("--max-frames", job.max_frames, "Stop after so many frames (0: all)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   app.add_option("--jobs", options.parallel_jobs, "Sequences of a suite run at once")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->needs(suite);
   app.add_option("--min-iou", options.min_iou,
                  "Exit with 1 if the mean IoU (of a suite: over its sequences) is below");

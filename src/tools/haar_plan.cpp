@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -63,7 +64,7 @@ int main(int argc, char** argv) {
       ->excludes(input);
   app.add_option("--dot", dot, "Writes the trees for Graphviz");
   app.add_option("--rounds", options.search_rounds, "Disturbances of the parser's search")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
       ->capture_default_str();
   bool calibrate = false;
   app.add_flag("--calibrate", calibrate,
