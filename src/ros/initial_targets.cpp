@@ -71,27 +71,14 @@ TargetRequest requestFrom(const std::string& place, const XmlRpcValue& target,
           pointsFrom(place + "/points", target["points"])};
 }
 
-/// "x,y,x,y,..." as a launch file can pass it on.
-std::vector<cv::Point2d> pointsFromText(const XmlRpcValue& value) {
-  const auto refuse = [&value] {
-    return fault("points", value, "empty or at least two points \"x,y,x,y,...\" [px]");
-  };
-  if (value.getType() != XmlRpcValue::TypeString) throw refuse();
-  std::istringstream text(static_cast<std::string>(value));
-  std::vector<double> numbers;
-  std::string word;
-  while (std::getline(text, word, ',')) {
-    std::istringstream word_text(word);
-    double number = 0.0;
-    if (!(word_text >> number) || !(word_text >> std::ws).eof()) throw refuse();
-    numbers.push_back(number);
+/// As a launch file can pass them on.
+std::vector<cv::Point2d> pointsFromString(const XmlRpcValue& value) {
+  std::optional<std::vector<cv::Point2d>> points;
+  if (value.getType() == XmlRpcValue::TypeString) {
+    points = pointsFromText(static_cast<std::string>(value));
   }
-  if (numbers.size() < 4 || numbers.size() % 2 != 0) throw refuse();
-  std::vector<cv::Point2d> points;
-  for (std::size_t i = 0; i < numbers.size(); i += 2) {
-    points.emplace_back(numbers[i], numbers[i + 1]);
-  }
-  return points;
+  if (points) return *points;
+  throw fault("points", value, "empty or at least two points \"x,y,x,y,...\" [px]");
 }
 
 /// Two objects of one id would be one object.
@@ -124,6 +111,25 @@ void readTargetList(const XmlRpcValue& list, const TrackerParameters& parameters
 
 }  // namespace
 
+std::optional<std::vector<cv::Point2d>> pointsFromText(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<double> numbers;
+  std::string word;
+  while (std::getline(stream, word, ',')) {
+    std::istringstream word_text(word);
+    double number = 0.0;
+    if (!(word_text >> number) || !(word_text >> std::ws).eof()) return std::nullopt;
+    numbers.push_back(number);
+  }
+  if (numbers.size() < 4 || numbers.size() % 2 != 0) return std::nullopt;
+  std::vector<cv::Point2d> points;
+  points.reserve(numbers.size() / 2);
+  for (std::size_t i = 0; i < numbers.size(); i += 2) {
+    points.emplace_back(numbers[i], numbers[i + 1]);
+  }
+  return points;
+}
+
 InitialTargets initialTargetsFrom(const XmlRpcValue& tree, const TrackerParameters& parameters) {
   InitialTargets targets;
   if (!tree.valid()) return targets;
@@ -134,7 +140,7 @@ InitialTargets initialTargetsFrom(const XmlRpcValue& tree, const TrackerParamete
       text.getType() == XmlRpcValue::TypeString && static_cast<std::string>(text).empty();
   if (none) return targets;
   try {
-    add("points", {parameters.default_id, parameters.default_model, pointsFromText(text)},
+    add("points", {parameters.default_id, parameters.default_model, pointsFromString(text)},
         &targets);
   } catch (const std::invalid_argument& error) {
     targets.faults.push_back(error.what());

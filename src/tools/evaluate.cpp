@@ -12,6 +12,7 @@
 #include <opencv2/core.hpp>
 
 #include "chain_tracker/evaluation/evaluated_tracker.h"
+#include "chain_tracker/ros/parameters.h"
 #include "common/evaluation_job.h"
 #include "common/evaluation_suite.h"
 
@@ -31,20 +32,15 @@ struct Options {
   EvaluationJob job;
   std::string suite;
   int parallel_jobs = 1;
-  std::vector<double> coordinates;
+  std::string points;  ///< x,y,x,y,...; empty: none are given
   double min_iou = std::nan("");
 };
 
-std::vector<cv::Point2d> pointsOf(const std::vector<double>& coordinates) {
-  if (coordinates.size() % 2 != 0) {
-    throw std::invalid_argument("--points has " + std::to_string(coordinates.size()) +
-                                " numbers, must be pairs x,y,x,y,...");
-  }
-  std::vector<cv::Point2d> points;
-  for (std::size_t i = 0; i < coordinates.size(); i += 2) {
-    points.emplace_back(coordinates[i], coordinates[i + 1]);
-  }
-  return points;
+std::vector<cv::Point2d> pointsOf(const std::string& text) {
+  if (text.empty()) return {};
+  if (const auto points = chain_tracker::pointsFromText(text)) return *points;
+  throw std::invalid_argument("--points is '" + text +
+                              "', must be at least two points x,y,x,y,... [px]");
 }
 
 void addOptions(CLI::App& app, Options& options) {
@@ -71,9 +67,7 @@ void addOptions(CLI::App& app, Options& options) {
                  "topic of the bag (default: the sequence folder's)")
       ->excludes(suite);
   app.add_option("--model", job.model, "Model: name, YAML file or auto (default: init.yaml's)");
-  app.add_option("--points", options.coordinates,
-                 "Where the object is in frame 0: x,y,x,y,... [px]")
-      ->delimiter(',')
+  app.add_option("--points", options.points, "Where the object is in frame 0: x,y,x,y,... [px]")
       ->excludes(suite);
   app.add_option("--baselines", job.baselines, "OpenCV's trackers to compare with")
       ->delimiter(',')
@@ -110,7 +104,7 @@ int run(Options& options) {
   if (job.sequence.empty() && job.bag.empty()) {
     throw std::invalid_argument("one of --sequence, --bag and --suite is needed");
   }
-  job.points = pointsOf(options.coordinates);
+  job.points = pointsOf(options.points);
   const nlohmann::json summary = chain_tracker::runJob(job, is_interrupted);
   return judge(summary["mean_iou"], !summary["interrupted"], options.min_iou);
 }

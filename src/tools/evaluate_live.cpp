@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,6 +16,7 @@
 #include <rosbag/bag.h>
 
 #include "chain_tracker/TrackedObjectArray.h"
+#include "chain_tracker/ros/parameters.h"
 #include "common/bag_frames.h"
 #include "common/evaluation_job.h"
 
@@ -47,14 +47,10 @@ double positiveParam(const ros::NodeHandle& node, const std::string& key, double
 }
 
 std::vector<cv::Point2d> pointsFrom(const std::string& text) {
-  std::vector<double> numbers;
-  std::istringstream stream(text);
-  for (std::string word; std::getline(stream, word, ',');) numbers.push_back(std::stod(word));
-  std::vector<cv::Point2d> points;
-  for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) {
-    points.emplace_back(numbers[i], numbers[i + 1]);
-  }
-  return points;
+  if (text.empty()) return {};
+  if (const auto points = pointsFromText(text)) return *points;
+  throw std::invalid_argument("~points is '" + text +
+                              "', must be empty or at least two points x,y,x,y,... [px]");
 }
 
 std::string requiredParam(const ros::NodeHandle& node, const std::string& key) {

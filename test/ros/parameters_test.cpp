@@ -167,6 +167,15 @@ TEST(InitialTargets, AreReadFromText) {
   EXPECT_EQ(targets.requests[0].points, expected);
 }
 
+TEST(PointsFromText, AreWholePairsOfNumbers) {
+  const std::vector<cv::Point2d> expected = {{-1.0, 2.5}, {3.0, 4.0}};
+  EXPECT_EQ(pointsFromText("-1, 2.5,3,4"), expected);
+  for (const std::string text :
+       {"", "1,2", "1,2,3,4,5", "1,2,3,x", "1,2,3,4px", "1,2,,4", "nan,2,3,4"}) {
+    EXPECT_FALSE(pointsFromText(text)) << text;
+  }
+}
+
 TEST(InitialTargets, EmptyTextMeansNone) {
   XmlRpcValue tree;
   tree["points"] = "";

@@ -22,6 +22,13 @@ class Usage(unittest.TestCase):
             with self.subTest(command=command):
                 self.assert_refused(sentence, *command)
 
+    def test_points_are_pairs(self):
+        for points in ("1,2,3", "1,2", "1,2,3,4x"):
+            with self.subTest(points=points):
+                self.assert_refused(f"--points is '{points}', must be at least two points",
+                                    "evaluate", "--sequence", "none", "--out", "none", "--points",
+                                    points)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -4,9 +4,11 @@
 /// The functions take the nodelet's private namespace as one value, a struct or nothing.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <opencv2/core.hpp>
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
@@ -33,6 +35,9 @@ TrackerParameters parametersFrom(const XmlRpc::XmlRpcValue& tree);
 
 /// One sentence for every private key that no one reads, with the keys there are.
 std::vector<std::string> unknownKeysIn(const XmlRpc::XmlRpcValue& tree);
+
+/// Points written "x,y,x,y,..."; nullopt unless they are at least two and nothing else.
+std::optional<std::vector<cv::Point2d>> pointsFromText(const std::string& text);
 
 /// The objects to track from the first image on: `~targets` and `~points`.
 struct InitialTargets {
