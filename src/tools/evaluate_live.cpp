@@ -19,6 +19,7 @@
 #include "chain_tracker/ros/parameters.h"
 #include "common/bag_frames.h"
 #include "common/evaluation_job.h"
+#include "common/node_parameters.h"
 
 namespace fs = std::filesystem;
 
@@ -40,12 +41,6 @@ struct Options {
   double min_iou = std::nan("");
 };
 
-double positiveParam(const ros::NodeHandle& node, const std::string& key, double fallback) {
-  const double value = node.param(key, fallback);
-  if (value > 0.0) return value;
-  throw std::invalid_argument("~" + key + " is " + std::to_string(value) + " [s], must be > 0");
-}
-
 std::vector<cv::Point2d> pointsFrom(const std::string& text) {
   if (text.empty()) return {};
   if (const auto points = pointsFromText(text)) return *points;
@@ -54,7 +49,7 @@ std::vector<cv::Point2d> pointsFrom(const std::string& text) {
 }
 
 std::string requiredParam(const ros::NodeHandle& node, const std::string& key) {
-  std::string value = node.param<std::string>(key, "");
+  std::string value = readText(node, key);
   if (!value.empty()) return value;
   throw std::invalid_argument("~" + key + " is missing");
 }
@@ -65,12 +60,12 @@ Options readOptions(const ros::NodeHandle& node) {
   options.job.topic = requiredParam(node, "topic");
   options.job.out = requiredParam(node, "out");
   options.job.recording = (fs::path(options.job.out) / "objects.bag").string();
-  options.job.ground_truth = node.param<std::string>("ground_truth", "");
-  options.job.points = pointsFrom(node.param<std::string>("points", ""));
-  options.job.video = node.param("video", false);
-  options.min_iou = node.param("min_iou", options.min_iou);
-  options.idle_timeout_sec = positiveParam(node, "idle_timeout", options.idle_timeout_sec);
-  options.first_timeout_sec = positiveParam(node, "first_timeout", options.first_timeout_sec);
+  options.job.ground_truth = readText(node, "ground_truth");
+  options.job.points = pointsFrom(readText(node, "points"));
+  options.job.video = readParameter(node, "video", false, "true or false");
+  options.min_iou = readParameter(node, "min_iou", options.min_iou, "a number");
+  options.idle_timeout_sec = readSeconds(node, "idle_timeout", options.idle_timeout_sec);
+  options.first_timeout_sec = readSeconds(node, "first_timeout", options.first_timeout_sec);
   return options;
 }
 
@@ -126,6 +121,7 @@ ros::Time stampOfLast(const std::map<ros::Time, int>& index_of) {
 int recordAndScore() {
   ros::NodeHandle node;
   const Options options = readOptions(ros::NodeHandle("~"));
+  checkGroundTruth(options.job);  // before the bag is played, which may take long
   fs::create_directories(options.job.out);
   const std::map<ros::Time, int> index_of = indexByStamp(options.job.bag, options.job.topic);
   if (index_of.empty()) throw std::invalid_argument(options.job.bag + " has no images");

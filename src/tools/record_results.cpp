@@ -17,6 +17,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include "common/node_parameters.h"
 #include "common/recorded_objects.h"
 #include "common/result_files.h"
 
@@ -244,20 +245,15 @@ class Recorder {
   image_transport::Subscriber overlay_sub_;
 };
 
-double positiveParam(const ros::NodeHandle& node, const std::string& key, double fallback) {
-  const double value = node.param(key, fallback);
-  if (value > 0.0) return value;
-  throw std::runtime_error("~" + key + " is " + std::to_string(value) + " [s], must be > 0");
-}
-
 Options readOptions(const ros::NodeHandle& node) {
   Options options;
-  if (!node.getParam("dir", options.dir) || options.dir.empty()) {
+  options.dir = readText(node, "dir");
+  if (options.dir.empty()) {
     throw std::runtime_error("~dir is missing: give the folder to write to, _dir:=DIR");
   }
-  options.id = node.param("id", options.id);
-  options.idle_timeout_sec = positiveParam(node, "idle_timeout", options.idle_timeout_sec);
-  options.first_timeout_sec = positiveParam(node, "first_timeout", options.first_timeout_sec);
+  options.id = readText(node, "id");
+  options.idle_timeout_sec = readSeconds(node, "idle_timeout", options.idle_timeout_sec);
+  options.first_timeout_sec = readSeconds(node, "first_timeout", options.first_timeout_sec);
   fs::create_directories(options.dir);
   return options;
 }

@@ -137,6 +137,10 @@ class BadInput(ProgramTest):
         self.assertIn("has no topic '/nope'", said)
         self.assertIn(f"topics of that type: {TOPIC}", said)
 
+    def test_missing_ground_truth_file_beside_a_bag(self):
+        said = self.evaluate_bag(self.bag, "--ground-truth", "/no/such.csv", code=2)
+        self.assertIn("ground truth /no/such.csv cannot be read", said)
+
     def test_bag_damaged_in_the_middle(self):
         bag = self.folder / "damaged.bag"
         data = bytearray(self.bag.read_bytes())

@@ -14,6 +14,14 @@ def free_port():
         return candidate.getsockname()[1]
 
 
+def environment_of(port, folder):
+    """Of programs that ask the ROS master at that port."""
+    environment = dict(os.environ, ROS_MASTER_URI=f"http://127.0.0.1:{port}", ROS_IP="127.0.0.1",
+                       ROS_HOME=str(folder / "ros"))
+    environment.pop("ROS_HOSTNAME", None)
+    return environment
+
+
 class Live(ProgramTest):
     @classmethod
     def setUpClass(cls):
@@ -23,15 +31,12 @@ class Live(ProgramTest):
         assert run("make_bag", "--sequence", cls.sequence, "--out", cls.bag).returncode == 0
         cls.live = cls.folder / "live"
         port = free_port()
-        environment = dict(os.environ, ROS_MASTER_URI=f"http://127.0.0.1:{port}",
-                           ROS_IP="127.0.0.1", ROS_HOME=str(cls.folder / "ros"))
-        environment.pop("ROS_HOSTNAME", None)
         # Slow enough that nothing has to be dropped.
         cls.launch = subprocess.run(
             ["roslaunch", "-p", str(port), "chain_tracker", "evaluate.launch", f"bag:={cls.bag}",
              f"points:={points_in(cls.sequence)}", "model:=bottle", "rate:=0.2",
              f"ground_truth:={cls.sequence}/groundtruth_parts.csv", f"out:={cls.live}"],
-            env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            env=environment_of(port, cls.folder), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
             timeout=150)
 
     def evaluate_bag(self, name, *arguments):
@@ -95,6 +100,54 @@ class Live(ProgramTest):
         self.assertEqual(scored, [every[row["frame"]] for row in scored])
         overlaps = [float(row["iou"]) for row in scored]
         self.assertAlmostEqual(summary["mean_iou"], sum(overlaps) / 30, delta=1e-4)
+
+
+class Parameters(ProgramTest):
+    """What is wrong is told before anything is waited for."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.bag = cls.folder / "box.bag"
+        assert run("synthesize", "--scene", "box", "--frames", 2, "--width", 64, "--height", 64,
+                   "--bag", cls.bag).returncode == 0
+        port = free_port()
+        cls.environment = environment_of(port, cls.folder)
+        master = subprocess.Popen(["rosmaster", "--core", "-p", str(port)], env=cls.environment,
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        cls.addClassCleanup(master.wait)
+        cls.addClassCleanup(master.terminate)
+
+    def refusal_of(self, program, *parameters):
+        ended = run(program, *parameters, env=self.environment, timeout=30)
+        self.assertEqual(ended.returncode, 2, ended.stderr)
+        return ended.stdout + ended.stderr
+
+    def live_refusal_of(self, name, *parameters):
+        """Of a node of its own: parameters outlive it."""
+        return self.refusal_of("evaluate_live", f"__name:={name}", f"_bag:={self.bag}",
+                               f"_topic:={TOPIC}", f"_out:={self.folder}/{name}", *parameters)
+
+    def test_types(self):
+        for key, value, allowed in (("first_timeout", "abc", "a number > 0 [s]"),
+                                    ("idle_timeout", "soon", "a number > 0 [s]"),
+                                    ("min_iou", "half", "a number"),
+                                    ("video", "perhaps", "true or false")):
+            with self.subTest(key=key):
+                self.assertIn(f"~{key} is {value}, must be {allowed}",
+                              self.live_refusal_of(key, f"_{key}:={value}"))
+        self.assertIn("~first_timeout is abc, must be a number > 0 [s]",
+                      self.refusal_of("record_results", f"_dir:={self.folder}/recorded",
+                                      "_first_timeout:=abc"))
+
+    def test_points(self):
+        self.assertIn("~points is '1,2,3', must be", self.live_refusal_of("odd", "_points:=1,2,3"))
+
+    def test_ground_truth(self):
+        self.assertIn("ground truth /no/such.csv cannot be read",
+                      self.live_refusal_of("no_file", "_ground_truth:=/no/such.csv"))
+        self.assertIn("has no topic '/no/such'",
+                      self.live_refusal_of("no_topic", "_ground_truth:=/no/such"))
 
 
 if __name__ == "__main__":

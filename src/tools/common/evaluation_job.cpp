@@ -47,9 +47,10 @@ std::unique_ptr<FrameSource> openSource(const EvaluationJob& job) {
   return job.grey ? greyFrames(std::move(frames)) : std::move(frames);
 }
 
-/// Topics begin with a slash; so may files, which are there.
+/// Topics begin with a slash; so may files, which are there or have an ending.
 bool isTopic(const std::string& ground_truth) {
-  return !ground_truth.empty() && ground_truth.front() == '/' && !fs::exists(ground_truth);
+  return !ground_truth.empty() && ground_truth.front() == '/' && !fs::exists(ground_truth) &&
+         !fs::path(ground_truth).has_extension();
 }
 
 void takeTruthTopic(const EvaluationJob& job, Input& input) {
@@ -204,6 +205,16 @@ void drawReport(const std::string& folder) {
 }
 
 }  // namespace
+
+void checkGroundTruth(const EvaluationJob& job) {
+  if (job.ground_truth.empty()) return;
+  if (isTopic(job.ground_truth)) {
+    checkRecording(job.bag, job.ground_truth);
+  } else {
+    GroundTruth truth;
+    readTruthFile(job.ground_truth, truth);
+  }
+}
 
 nlohmann::json runJob(const EvaluationJob& job, const std::function<bool()>& interrupted) {
   const Input input = job.bag.empty() ? openSequence(job) : openBag(job);

@@ -28,6 +28,9 @@ struct EvaluationJob {
   std::string out;
 };
 
+/// Throws std::invalid_argument naming what is wrong with the job's ground truth file or topic.
+void checkGroundTruth(const EvaluationJob& job);
+
 /// Runs the job, writes its folder and prints its table; returns the summary written. What a user
 /// should know before trusting the input goes to standard error.
 /// Throws std::invalid_argument or std::runtime_error naming what is wrong.

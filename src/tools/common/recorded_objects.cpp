@@ -135,6 +135,10 @@ ObjectRecording readRecording(const std::string& bag, const std::string& topic,
   return recording;
 }
 
+void checkRecording(const std::string& bag, const std::string& topic) {
+  BagTopic(bag, topic, {kObjectsType});
+}
+
 GroundTruth truthFrom(const ObjectRecording& recording) {
   GroundTruth truth;
   for (const int frame : recording.frames_without_object) truth.boxes[frame] = std::nullopt;

@@ -47,6 +47,9 @@ struct ObjectRecording {
 ObjectRecording readRecording(const std::string& bag, const std::string& topic,
                               const std::map<ros::Time, int>& index_of);
 
+/// Throws as readRecording() does where there is nothing to read.
+void checkRecording(const std::string& bag, const std::string& topic);
+
 /// A recording taken for the truth: points and boxes of the frames in which it was not lost; no
 /// object where the messages do not tell of it.
 GroundTruth truthFrom(const ObjectRecording& recording);
