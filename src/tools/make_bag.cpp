@@ -70,7 +70,7 @@ int writeBag(const std::string& file, FrameSource& source, double fps, const Opt
   SourceFrame frame;
   while (count < options.max_frames && source.next(frame)) {
     if (!frame.fault.empty()) {
-      warn("left out: " + frame.fault);
+      warn("left out, later frames have lower numbers in the bag: " + frame.fault);
       continue;
     }
     ros::Time stamp;

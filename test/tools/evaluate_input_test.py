@@ -86,6 +86,20 @@ class BadInput(ProgramTest):
         summary = summary_in(self.out)
         self.assertEqual((summary["frames"], summary["skipped_frames"]), (19, 1))
 
+    def test_a_bag_goes_on_behind_an_unreadable_frame(self):
+        sequence = self.copy()
+        pictures = [sequence / "img/000010.png", sequence / "img/000011.png"]
+        for picture in pictures:
+            picture.write_text("no picture")
+        bag = self.folder / "gap.bag"
+        ended = run("make_bag", "--sequence", sequence, "--out", bag)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        for picture in pictures:
+            self.assertIn(f"later frames have lower numbers in the bag: {picture} cannot be read",
+                          ended.stderr)
+        self.assertIn("frame 10: a gap of 0.1 s", self.evaluate_bag(bag))
+        self.assertEqual(summary_in(self.out)["frames"], 18)
+
     def test_unreadable_first_frame(self):
         sequence = self.copy()
         picture = sequence / "img/000000.png"
