@@ -227,7 +227,7 @@ GroundTruth readGroundTruth(const std::string& folder) {
 std::optional<SequenceStart> readStart(const std::string& folder, const GroundTruth& truth) {
   const std::string path = (fs::path(folder) / "init.yaml").string();
   Init init;
-  if (fs::exists(path)) init = readInit(path);
+  if (!folder.empty() && fs::exists(path)) init = readInit(path);
   SequenceStart& start = init.start;
   if (!start.points.empty()) return start;
   if (truth.empty()) return std::nullopt;

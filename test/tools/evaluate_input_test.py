@@ -155,6 +155,14 @@ class BadInput(ProgramTest):
         said = self.evaluate_bag(self.bag, "--ground-truth", "/no/such.csv", code=2)
         self.assertIn("ground truth /no/such.csv cannot be read", said)
 
+    def test_a_bag_has_nothing_to_do_with_the_working_folder(self):
+        self.out.mkdir()
+        (self.out / "init.yaml").write_text("model: unicorn\n")
+        ended = run("evaluate", "--bag", self.bag, "--topic", TOPIC, "--ground-truth",
+                    self.good / "groundtruth_parts.csv", "--out", "out", "--no-report",
+                    cwd=self.out)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+
     def test_bag_damaged_in_the_middle(self):
         bag = self.folder / "damaged.bag"
         data = bytearray(self.bag.read_bytes())

@@ -51,10 +51,10 @@ void readPoints(const std::string& path, GroundTruth& truth);
 /// The truth in a sequence folder, from either file or both; empty if it has none.
 GroundTruth readGroundTruth(const std::string& folder);
 
-/// From the folder's init.yaml. Points that it leaves out are those of the truth: all parts, or the
-/// box of a truth without parts, in its first_frame or, without one, in the first frame with them.
-/// nullopt if there are none. Throws std::invalid_argument for a faulty init.yaml, also if the
-/// truth does not know the object in its first_frame.
+/// From the folder's init.yaml, if there is a folder with one. Points that it leaves out are those
+/// of the truth: all parts, or the box of a truth without parts, in its first_frame or, without
+/// one, in the first frame with them. nullopt if there are none. Throws std::invalid_argument for a
+/// faulty init.yaml, also if the truth does not know the object in its first_frame.
 std::optional<SequenceStart> readStart(const std::string& folder, const GroundTruth& truth);
 
 }  // namespace chain_tracker
