@@ -133,6 +133,7 @@ TrackedObject toMsg(const ChainState& state, const std::string& id, const std::s
   message.confidence = static_cast<float>(state.confidence);
   message.pose = unknownPose();
   message.scale = static_cast<float>(kNaN);
+  message.box.fill(kNaN);
   for (const SegmentState& segment : state.segments) {
     message.segments.push_back(toMsg(segment, lost));
     for (int k = 0; k < segment.part_count; ++k) {
@@ -148,7 +149,8 @@ TrackedObject toMsg(const ChainState& state, const std::string& id, const std::s
   message.pose = poseMsg(pose.translation, pose.angle);
   message.scale = static_cast<float>(pose.scale);
   message.outline = polygonMsg(state.outline);
-  message.roi = regionMsg(state.box, image_size);
+  message.box = {state.box.x, state.box.y, state.box.width, state.box.height};
+  message.roi = regionMsg(uprightBounds(state.outline), image_size);
   return message;
 }
 

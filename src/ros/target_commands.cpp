@@ -60,6 +60,11 @@ void TargetCommands::startOnFirstImage(const InitialTargets& targets) {
   }
 }
 
+void TargetCommands::noteImage(const std::string& fault) {
+  const std::lock_guard<std::mutex> lock(image_fault_mutex_);
+  image_fault_ = fault;
+}
+
 bool TargetCommands::setTarget(SetTarget::Request& request, SetTarget::Response& response) {
   TargetRequest target{request.id, request.model, {}};
   for (const auto& point : request.points) target.points.emplace_back(point.x, point.y);
@@ -109,8 +114,9 @@ void TargetCommands::startOnNextImage(const TargetRequest& request, const ChainM
   const std::chrono::duration<double> timeout(parameters_.init_timeout);
   if (answer.wait_for(timeout) == std::future_status::timeout && registry_->withdraw(ticket)) {
     std::ostringstream reason;
-    reason << "no image on topic " << image_topic_ << " within " << parameters_.init_timeout
-           << " s";
+    const std::lock_guard<std::mutex> lock(image_fault_mutex_);
+    reason << "no image on topic " << image_topic_ << " within " << parameters_.init_timeout << " s"
+           << (image_fault_.empty() ? "" : " that can be read: " + image_fault_);
     throw std::runtime_error(reason.str());
   }
   const std::string text = answer.get();

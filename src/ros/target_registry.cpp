@@ -14,6 +14,14 @@ namespace chain_tracker {
 namespace {
 
 constexpr char kClosed[] = "the tracker is being shut down";
+/// Stamps that go back by less are of images that come out of order or of a clock that is
+/// corrected; a recording that starts again goes back by more.
+constexpr double kJitter = 0.5;
+
+/// Zero is no stamp at all.
+bool wentBack(const ros::Time& from, const ros::Time& to) {
+  return !to.isZero() && (from - to).toSec() > kJitter;
+}
 
 /// The points of an image of size `from`, in the same image at size `to`. Pixel centres lie on
 /// whole numbers, so the images share the corner (-0.5, -0.5).
@@ -137,22 +145,18 @@ FrameResult TargetRegistry::process(const Frame& frame, const cv::Mat& image) {
 }
 
 void TargetRegistry::advanceAll(const Frame& frame, const cv::Mat& image, FrameResult* result) {
-  for (auto entry = targets_.begin(); entry != targets_.end();) {
-    auto& [id, target] = *entry;
+  for (auto& [id, target] : targets_) {
     const std::string break_in_stream = breakInStream(frame, image, target);
-    bool keep = true;
     try {
       if (target.frame_number < frame.number) advance(frame, image, &target);
       if (!break_in_stream.empty()) {
         result->notes.push_back(restartNote(id, break_in_stream));
       }
     } catch (const std::exception& error) {
-      keep = break_in_stream.empty();
-      result->faults.push_back(
-          {id, keep ? error.what()
-                    : break_in_stream + ", it cannot start again and is removed: " + error.what()});
+      const std::string cannot_start =
+          break_in_stream.empty() ? "" : break_in_stream + ", it cannot start again: ";
+      result->faults.push_back({id, cannot_start + error.what()});
     }
-    entry = keep ? std::next(entry) : targets_.erase(entry);
   }
 }
 
@@ -163,7 +167,7 @@ std::string TargetRegistry::breakInStream(const Frame& frame, const cv::Mat& ima
   if (target.frame_number >= frame.number) return "";
   if (target.restart) {
     text << "as it was asked to";
-  } else if (stamp < target.stamp) {
+  } else if (wentBack(target.stamp, stamp)) {
     text << "time went back from " << target.stamp << " to " << stamp << " [s]";
   } else if (image.size() != target.image_size) {
     text << "the image's size changed from " << target.image_size << " to " << image.size()
@@ -177,10 +181,12 @@ void TargetRegistry::advance(const Frame& frame, const cv::Mat& image, Target* t
   const ChainState& state = target->tracker.state();
   const std::vector<cv::Point2d> given_points =
       rescaled(target->given_points, old_size, image.size());
-  if (target->restart || frame.image->header.stamp < target->stamp) {
+  if (target->restart || wentBack(target->stamp, frame.image->header.stamp)) {
     *target = start(frame, image, given_points, target->tracker.model());
   } else if (image.size() != old_size) {
-    if (state.status == TrackingStatus::kLost) throw std::runtime_error("it is lost");
+    if (state.status == TrackingStatus::kLost) {
+      throw std::runtime_error("it is lost, and found again in images of the old size only");
+    }
     *target = start(frame, image, rescaled(positionsOf(state.points), old_size, image.size()),
                     target->tracker.model());
     target->given_points = given_points;

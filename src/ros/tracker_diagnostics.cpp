@@ -14,6 +14,12 @@ void TrackerDiagnostics::record(const TrackedObjectArray& objects, const ros::Du
   ++frames_;
 }
 
+void TrackerDiagnostics::recordUnreadable(const std::string& reason) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  unreadable_reason_ = reason;
+  ++unreadable_frames_;
+}
+
 void TrackerDiagnostics::report(std::uint64_t drops,
                                 diagnostic_updater::DiagnosticStatusWrapper* status) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -23,7 +29,9 @@ void TrackerDiagnostics::report(std::uint64_t drops,
   for (const TrackedObject& object : last_objects_.objects) {
     if (object.state == TrackedObject::LOST) lost += " '" + object.id + "'";
   }
-  if (frames_ == 0) {
+  if (unreadable_frames_ > 0) {
+    status->summary(DiagnosticStatus::ERROR, "unreadable images: " + unreadable_reason_);
+  } else if (frames_ == 0) {
     status->summary(DiagnosticStatus::WARN, "no images");
   } else if (!lost.empty()) {
     status->summary(DiagnosticStatus::WARN, "lost:" + lost);
@@ -34,11 +42,13 @@ void TrackerDiagnostics::report(std::uint64_t drops,
   status->addf("Latency [ms]", "%.1f", 1e3 * last_latency_.toSec());
   status->addf("Processing time [ms]", "%.1f", 1e3 * last_objects_.processing_time.toSec());
   status->add("Dropped frames", drops - last_drops_);
+  status->add("Unreadable frames", unreadable_frames_);
   for (const TrackedObject& object : last_objects_.objects) {
     status->add("State of " + object.id, static_cast<int>(object.state));
     status->addf("Confidence of " + object.id, "%.2f", object.confidence);
   }
   frames_ = 0;
+  unreadable_frames_ = 0;
   last_drops_ = drops;
   last_report_ = now;
 }

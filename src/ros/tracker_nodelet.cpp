@@ -58,6 +58,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   void check();
   void receive(const sensor_msgs::ImageConstPtr& image);
   void work();
+  cv_bridge::CvImageConstPtr read(const Frame& frame);
   void track(const Frame& frame);
   void log(const FrameResult& result);
   void visualize(const cv_bridge::CvImage& image, const TrackedObjectArray& objects);
@@ -69,6 +70,7 @@ class TrackerNodelet : public nodelet::Nodelet {
   // The way of an image
   std::uint64_t frames_received_ = 0;
   int checks_without_image_ = 0;
+  int checks_without_report_ = 0;
   std::unique_ptr<ImageHistory> history_;
   FrameMailbox mailbox_;
   TargetRegistry registry_;
@@ -151,7 +153,11 @@ void TrackerNodelet::subscribe() {
 }
 
 void TrackerNodelet::check() {
-  updater_->update();
+  // The updater's own clock is of ROS, which stands still or goes back where a bag is played.
+  if (++checks_without_report_ >= updater_->getPeriod()) {
+    updater_->force_update();
+    checks_without_report_ = 0;
+  }
   if (frames_received_ == 0 && ++checks_without_image_ == kPatience) {
     NODELET_WARN_STREAM(getName() << ": no image has come on topic " << image_topic_
                                   << " yet; remap `image` if this is not the camera's");
@@ -176,9 +182,21 @@ void TrackerNodelet::work() {
   }
 }
 
+cv_bridge::CvImageConstPtr TrackerNodelet::read(const Frame& frame) {
+  try {
+    cv_bridge::CvImageConstPtr image = toBgr8(frame.image);
+    commands_->noteImage("");
+    return image;
+  } catch (const std::exception& error) {
+    commands_->noteImage(error.what());
+    diagnostics_.recordUnreadable(error.what());
+    throw;
+  }
+}
+
 void TrackerNodelet::track(const Frame& frame) {
   const auto start = std::chrono::steady_clock::now();
-  const cv_bridge::CvImageConstPtr image = toBgr8(frame.image);
+  const cv_bridge::CvImageConstPtr image = read(frame);
   FrameResult result = registry_.process(frame, image->image);
 
   const auto objects = boost::make_shared<TrackedObjectArray>();

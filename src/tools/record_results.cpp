@@ -182,7 +182,7 @@ class Recorder {
     options_.id = object->id;
     model_ = object->model;
     const ObjectRow row =
-        toRow(frame, message.processing_time.toSec() * 1e3, *object, box_.next(*object));
+        toRow(frame, message.processing_time.toSec() * 1e3, *object, boxOf(*object));
     summary_.add(row);
     objects_.write(toCsv(row));
     recordParts(frame, *object);
@@ -237,7 +237,6 @@ class Recorder {
   LineFile points_;
   OverlayVideo video_;
   RunSummary summary_;
-  RecordedBox box_;
   std::string model_;
   int frame_count_ = 0;
   ros::WallTime last_message_;

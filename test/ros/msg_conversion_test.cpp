@@ -127,6 +127,16 @@ TEST(MsgConversion, KeepsPointsAndOutline) {
   EXPECT_EQ(object.outline.points[2].y, 50.0f);
 }
 
+TEST(MsgConversion, TheBoxMayTurnLessThanTheOutline) {
+  ChainState state = armState();
+  state.box = {5.25, 10.5, 40.0, 30.0};
+  const TrackedObject object = armMsg(state);
+  EXPECT_EQ(object.box[0], 5.25);
+  EXPECT_EQ(object.box[1], 10.5);
+  EXPECT_EQ(object.box[2], 40.0);
+  EXPECT_EQ(object.box[3], 30.0);
+}
+
 struct Box {
   cv::Rect2d given;
   cv::Rect expected;
@@ -134,9 +144,11 @@ struct Box {
 
 class Region : public testing::TestWithParam<Box> {};
 
-TEST_P(Region, IsTheBoxCutToTheImage) {
+TEST_P(Region, IsTheOutlinesBoundsCutToTheImage) {
   ChainState state = armState();
-  state.box = GetParam().given;
+  const cv::Point2d low = GetParam().given.tl();
+  const cv::Point2d high = GetParam().given.br();
+  state.outline = {{low.x, high.y}, low, {high.x, low.y}, high};
   const sensor_msgs::RegionOfInterest roi = armMsg(state).roi;
   const cv::Rect& expected = GetParam().expected;
   EXPECT_EQ(roi.x_offset, static_cast<unsigned>(expected.x));
@@ -161,6 +173,7 @@ TEST(MsgConversion, ALostObjectRepeatsNoPosition) {
   EXPECT_TRUE(std::isnan(object.pose.x));
   EXPECT_TRUE(std::isnan(object.scale));
   EXPECT_TRUE(object.outline.points.empty());
+  EXPECT_TRUE(std::isnan(object.box[0]));
   EXPECT_EQ(object.roi.width, 0u);
   ASSERT_EQ(object.parts.size(), 4u);
   for (const PartPose& part : object.parts) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The tracker where time comes from a bag.
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
@@ -28,6 +29,23 @@ TEST_F(SimulatedTimeTest, TimeThatStandsStillStopsNothing) {
   const cv::Mat image = scene_.with({BottlePose()});
   EXPECT_TRUE(client_.setTarget(bottleRequest("bottle", BottlePose()), image).success);
   EXPECT_TRUE(isAt(objectOf(client_.show(image), "bottle"), BottlePose()));
+}
+
+TEST_F(SimulatedTimeTest, DiagnosticsGoOnWhereTimeGoesBack) {
+  ros::NodeHandle node;
+  int reports = 0;
+  const ros::Subscriber diagnostics = node.subscribe<diagnostic_msgs::DiagnosticArray>(
+      "/diagnostics", 100, [&](const diagnostic_msgs::DiagnosticArray::ConstPtr&) { ++reports; });
+  ros::Publisher clock = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  ASSERT_TRUE(waitUntil([&] { return clock.getNumSubscribers() >= 2; }));
+  for (const double seconds : {500.0, 100.0}) {
+    SCOPED_TRACE(seconds);
+    rosgraph_msgs::Clock time;
+    time.clock = ros::Time(seconds);
+    clock.publish(time);
+    const int before = reports;
+    EXPECT_TRUE(waitUntil([&] { return reports >= before + 2; }));
+  }
 }
 
 TEST_F(SimulatedTimeTest, StampsAreThoseOfTheBag) {

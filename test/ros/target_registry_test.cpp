@@ -227,7 +227,30 @@ TEST_F(TargetRegistryTest, ThePointsGivenAreScaledWithTheImage) {
   EXPECT_NEAR(result.objects[0].points[0].y, 2.0 * first.y + 0.5, 1e-3);
 }
 
-TEST_F(TargetRegistryTest, ALostObjectDoesNotSurviveAnotherSize) {
+TEST_F(TargetRegistryTest, StampsOutOfOrderOrMissingAreNotTimeGoingBack) {
+  expect("a", RenderedScene::endsOf(kStart));
+  for (int k = 0; k < 5; ++k) show(scene_.with({movedBy(4.0 * k, 0.0)}), 10.0 + k);
+  for (const double stamp : {13.9, 13.6, 0.0, 15.0}) {
+    const FrameResult result = show(scene_.with({movedBy(16.0, 0.0)}), stamp);
+    EXPECT_TRUE(result.notes.empty()) << stamp;
+    EXPECT_EQ(result.objects.at(0).state, TrackedObject::TRACKING) << stamp;
+  }
+}
+
+TEST_F(TargetRegistryTest, AnObjectThatCannotStartAgainIsTriedAgain) {
+  expect("a", RenderedScene::endsOf(kStart));
+  show(scene_.with({kStart}), 1.0);
+  registry_.restartAll();
+  FrameResult result = show(cv::Mat(scene_.wall().size(), CV_8UC3, cv::Scalar()), 2.0);
+  ASSERT_EQ(result.faults.size(), 1u);
+  EXPECT_NE(result.faults[0].reason.find("cannot start again"), std::string::npos);
+  EXPECT_EQ(result.objects.at(0).state, TrackedObject::LOST);
+  result = show(scene_.with({kStart}), 3.0);
+  EXPECT_TRUE(result.faults.empty());
+  EXPECT_EQ(result.objects.at(0).state, TrackedObject::INITIALIZING);
+}
+
+TEST_F(TargetRegistryTest, ALostObjectOutlivesAnotherSize) {
   expect("a", RenderedScene::endsOf(kStart));
   show(scene_.with({kStart}), 1.0);
   FrameResult result;
@@ -236,10 +259,12 @@ TEST_F(TargetRegistryTest, ALostObjectDoesNotSurviveAnotherSize) {
   cv::Mat twice;
   cv::resize(scene_.wall(), twice, cv::Size(), 2.0, 2.0);
   result = show(twice, 20.0);
-  EXPECT_TRUE(result.objects.empty());
+  EXPECT_EQ(result.objects.at(0).state, TrackedObject::LOST);
   ASSERT_EQ(result.faults.size(), 1u);
   EXPECT_EQ(result.faults[0].id, "a");
-  EXPECT_NE(result.faults[0].reason.find("removed"), std::string::npos);
+  EXPECT_NE(result.faults[0].reason.find("old size"), std::string::npos);
+  for (int k = 0; k < 4; ++k) result = show(scene_.with({kStart}), 21.0 + k);
+  expectAt(result.objects.at(0), kStart.centre, 8.0);
 }
 
 }  // namespace

@@ -41,6 +41,17 @@ TEST(TrackerDiagnostics, WarnsWhereNoImageComes) {
   EXPECT_EQ(reportOf(&diagnostics).message, "no images");
 }
 
+TEST(TrackerDiagnostics, TellsOfImagesThatCannotBeRead) {
+  TrackerDiagnostics diagnostics;
+  diagnostics.recordUnreadable("encoding '32FC1'");
+  diagnostics.recordUnreadable("encoding '32FC1'");
+  const DiagnosticStatusWrapper status = reportOf(&diagnostics);
+  EXPECT_EQ(status.level, DiagnosticStatus::ERROR);
+  EXPECT_NE(status.message.find("32FC1"), std::string::npos);
+  EXPECT_EQ(valueOf(status, "Unreadable frames"), "2");
+  EXPECT_EQ(reportOf(&diagnostics).message, "no images");
+}
+
 TEST(TrackerDiagnostics, WarnsOfALostObjectByItsName) {
   TrackerDiagnostics diagnostics;
   diagnostics.record(oneObject(TrackedObject::LOST), ros::Duration(0.02));

@@ -85,23 +85,22 @@ void expectSameBox(const cv::Rect2d& a, const cv::Rect2d& b) {
   EXPECT_NEAR(a.height, b.height, 1e-3);
 }
 
-TEST(RecordedBox, IsTheTrackersBox) {
+TEST(BoxOf, IsTheTrackersBox) {
   for (const SegmentLayout& layout :
        {rectangle(0.0), rectangle(CV_PI / 2.0), rectangle(0.5), bentLine()}) {
     SCOPED_TRACE(layout.image_from_segment.angle);
     const ChainState first =
         stateOf(layout, layout.image_from_segment, TrackingStatus::kInitializing);
     const ChainState later = stateOf(layout, moved(layout), TrackingStatus::kTracking);
-    RecordedBox boxes;
-    expectSameBox(boxes.next(toMsg(first, "a", "box", kImage)), first.box);
-    expectSameBox(boxes.next(toMsg(later, "a", "box", kImage)), later.box);
+    expectSameBox(boxOf(toMsg(first, "a", "box", kImage)), first.box);
+    expectSameBox(boxOf(toMsg(later, "a", "box", kImage)), later.box);
   }
 }
 
-TEST(RecordedBox, ALostObjectHasNone) {
+TEST(BoxOf, ALostObjectIsEmpty) {
   const SegmentLayout layout = rectangle(0.0);
   const ChainState lost = stateOf(layout, moved(layout), TrackingStatus::kLost);
-  EXPECT_TRUE(RecordedBox().next(toMsg(lost, "a", "box", kImage)).empty());
+  EXPECT_TRUE(boxOf(toMsg(lost, "a", "box", kImage)).empty());
 }
 
 /// A bag of messages, one for each frame at 0.1 s.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ class TargetCommands {
   /// Starts objects on the first image, and logs what is refused.
   void startOnFirstImage(const InitialTargets& targets);
 
+  /// Why the last image could not be read, for those who wait for one; empty if it could.
+  void noteImage(const std::string& fault);
+
   /// Whether images are to be ignored.
   bool paused() const { return paused_; }
 
@@ -57,6 +61,8 @@ class TargetCommands {
   TargetRegistry* const registry_;
   const ImageHistory* const history_;
   std::atomic<bool> paused_{false};
+  std::mutex image_fault_mutex_;
+  std::string image_fault_;
 
   ros::CallbackQueue queue_;
   std::vector<ros::ServiceServer> services_;

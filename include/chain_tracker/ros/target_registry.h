@@ -63,9 +63,10 @@ class TargetRegistry {
   /// Tracks all objects into the next frame; `image` are its pixels (CV_8UC3 BGR).
   ///
   /// An object is started again from the points given if restartAll() was called or the stamp lies
-  /// before the last one (a bag that starts again); from where it is now, scaled, if the image's
-  /// size has changed. An object that cannot be started again is removed.
-  /// One object's fault does not touch the others, and nothing is thrown.
+  /// more than half a second before the last one (a bag that starts again); from where it is now,
+  /// scaled, if the image's size has changed. An object that cannot be started again is LOST, and
+  /// tried again with every frame. One object's fault does not touch the others, and nothing is
+  /// thrown.
   FrameResult process(const Frame& frame, const cv::Mat& image);
 
  private:

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <string>
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/duration.h>
@@ -19,7 +20,11 @@ class TrackerDiagnostics {
   /// Notes what was published; `latency` is the age of the image at that time.
   void record(const TrackedObjectArray& objects, const ros::Duration& latency);
 
-  /// Reports since the last report. A warning if no image came or an object is LOST.
+  /// Notes an image that could not be read, and why.
+  void recordUnreadable(const std::string& reason);
+
+  /// Reports since the last report. A warning if no image came or an object is LOST, an error if
+  /// images came that could not be read.
   void report(std::uint64_t drops, diagnostic_updater::DiagnosticStatusWrapper* status);
 
  private:
@@ -29,6 +34,8 @@ class TrackerDiagnostics {
   TrackedObjectArray last_objects_;
   ros::Duration last_latency_;
   int frames_ = 0;
+  int unreadable_frames_ = 0;
+  std::string unreadable_reason_;
   std::uint64_t last_drops_ = 0;
   Clock::time_point last_report_ = Clock::now();
 };

@@ -2,28 +2,14 @@
 #include "recorded_objects.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "bag_topic.h"
 #include "chain_tracker/TrackedObjectArray.h"
-#include "chain_tracker/image/pixel_geometry.h"
 
 namespace chain_tracker {
 namespace {
 
 constexpr const char* kObjectsType = "chain_tracker/TrackedObjectArray";
-/// Outlines are published in single precision: sides this near an axis are parallel to it [rad].
-constexpr double kUprightTolerance = 1e-4;
-
-std::vector<cv::Point2d> cornersOf(const geometry_msgs::Polygon& polygon) {
-  std::vector<cv::Point2d> corners;
-  for (const auto& point : polygon.points) corners.emplace_back(point.x, point.y);
-  return corners;
-}
-
-bool isUpright(const std::vector<cv::Point2d>& corners) {
-  return std::abs(std::sin(2.0 * directionOf(corners[1] - corners[0]))) < 2.0 * kUprightTolerance;
-}
 
 const geometry_msgs::Pose2D& poseOf(const TrackedObject& object) {
   return object.segments.empty() ? object.pose : object.segments.front().pose;
@@ -39,12 +25,12 @@ PartState partFrom(const PartPose& message) {
   return part;
 }
 
-TrackedFrame frameFrom(const TrackedObject& object, RecordedBox& boxes) {
+TrackedFrame frameFrom(const TrackedObject& object) {
   TrackedFrame frame;
   frame.state = stateName(object.state);
   frame.confidence = object.confidence;
   frame.lost = object.state == TrackedObject::LOST;
-  frame.box = boxes.next(object);
+  frame.box = boxOf(object);
   frame.theta = poseOf(object).theta;
   frame.scale = object.segments.empty() ? object.scale : object.segments.front().scale;
   for (const PartPose& part : object.parts) frame.parts.push_back(partFrom(part));
@@ -88,28 +74,14 @@ std::string stateName(std::uint8_t state) {
   }
 }
 
-cv::Rect2d RecordedBox::next(const TrackedObject& object) {
-  std::vector<cv::Point2d> corners = cornersOf(object.outline);
-  if (corners.size() != 4) return corners.empty() ? cv::Rect2d() : uprightBounds(corners);
-  const geometry_msgs::Pose2D& pose = poseOf(object);
-  const bool initialised = object.state == TrackedObject::INITIALIZING;
-  if (!begun_ || initialised) {
-    upright_ = isUpright(corners);
-    first_angle_ = pose.theta;
-    begun_ = true;
-  }
-  if (!upright_) return uprightBounds(corners);
-  const Similarity turn_back{wrapAngle(first_angle_ - pose.theta), 1.0, {pose.x, pose.y}};
-  for (cv::Point2d& corner : corners) {
-    corner = turn_back.apply(corner - cv::Point2d(pose.x, pose.y));
-  }
-  return uprightBounds(corners);
+cv::Rect2d boxOf(const TrackedObject& object) {
+  if (object.state == TrackedObject::LOST) return {};
+  return {object.box[0], object.box[1], object.box[2], object.box[3]};
 }
 
 ObjectRecording readRecording(const std::string& bag, const std::string& topic,
                               const std::map<ros::Time, int>& index_of) {
   ObjectRecording recording;
-  RecordedBox boxes;
   BagTopic messages(bag, topic, {kObjectsType});
   for (const rosbag::MessageInstance& message : messages.view()) {
     const auto array = arrayFrom(message);
@@ -129,8 +101,7 @@ ObjectRecording readRecording(const std::string& bag, const std::string& topic,
     }
     recording.id = object->id;
     recording.model = object->model;
-    recording.frames[frame->second] = {array->processing_time.toSec() * 1e3,
-                                       frameFrom(*object, boxes)};
+    recording.frames[frame->second] = {array->processing_time.toSec() * 1e3, frameFrom(*object)};
   }
   return recording;
 }

@@ -17,19 +17,8 @@ namespace chain_tracker {
 /// Name of a state of TrackedObject, as in objects.csv.
 std::string stateName(std::uint8_t state);
 
-/// Takes messages about one object in the order of time, and says where its box is.
-class RecordedBox {
- public:
-  /// As CarriedShape::box() would have it: an outline that was upright when the object was
-  /// initialised moves and rescales but does not turn, of another one, or
-  /// one of not just four corners, these are the upright bounds. Empty for a lost object.
-  cv::Rect2d next(const TrackedObject& object);
-
- private:
-  bool begun_ = false;
-  bool upright_ = false;
-  double first_angle_ = 0.0;
-};
+/// Upright box of the object; empty if it is lost.
+cv::Rect2d boxOf(const TrackedObject& object);
 
 /// The messages about one object of a topic.
 struct ObjectRecording {

@@ -82,6 +82,7 @@ TrackedObject truthMsg(const SceneFrame& frame, int index, const std::string& mo
     object.points.push_back(point);
   }
   object.outline = outlineMsg(frame.box);
+  object.box = {frame.box.x, frame.box.y, frame.box.width, frame.box.height};
   return object;
 }
 
