@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kSuccessThresholds = 21;
-constexpr int kPrecisionThresholds = 51;
 constexpr double kPascalOverlap = 0.5;
 constexpr double kPrecisionRadius = 20.0;
 constexpr double kPckShare = 0.1;
@@ -57,13 +56,6 @@ std::vector<double> successCurve(const std::vector<double>& overlaps) {
 }
 
 double successAuc(const std::vector<double>& overlaps) { return mean(successCurve(overlaps)); }
-
-std::vector<double> precisionCurve(const std::vector<double>& distances) {
-  std::vector<double> curve;
-  curve.reserve(kPrecisionThresholds);
-  for (int i = 0; i < kPrecisionThresholds; ++i) curve.push_back(shareWithin(distances, i));
-  return curve;
-}
 
 double mean(const std::vector<double>& values) {
   if (values.empty()) return kUnknown;

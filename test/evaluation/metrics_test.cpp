@@ -57,12 +57,11 @@ TEST(Metrics, SuccessAucIsTheMeanOfTheCurve) {
   EXPECT_TRUE(std::isnan(successAuc({})));
 }
 
-TEST(Metrics, PrecisionCountsDistancesWithinTheThreshold) {
-  const std::vector<double> curve = precisionCurve({0.0, 20.0, 20.5, kInfinity});
-  ASSERT_EQ(curve.size(), 51U);
-  EXPECT_DOUBLE_EQ(curve[0], 0.25);
-  EXPECT_DOUBLE_EQ(curve[20], 0.5);
-  EXPECT_DOUBLE_EQ(curve[50], 0.75) << "what is lost is never within";
+TEST(Metrics, WhatIsLostIsNeverWithinADistance) {
+  const std::vector<double> distances = {0.0, 20.0, 20.5, kInfinity};
+  EXPECT_DOUBLE_EQ(shareWithin(distances, 0.0), 0.25);
+  EXPECT_DOUBLE_EQ(shareWithin(distances, 20.0), 0.5);
+  EXPECT_DOUBLE_EQ(shareWithin(distances, 1e6), 0.75);
 }
 
 TEST(Metrics, PercentileInterpolatesBetweenOrderStatistics) {

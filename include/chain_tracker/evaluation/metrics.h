@@ -25,10 +25,6 @@ std::vector<double> successCurve(const std::vector<double>& overlaps);
 /// Area under the success curve: the mean of its 21 values (OTB's success score).
 double successAuc(const std::vector<double>& overlaps);
 
-/// Share of centre distances within each of the thresholds 0, 1, ..., 50 px (OTB's precision plot).
-/// A frame in which the tracker reports nothing has an infinite distance.
-std::vector<double> precisionCurve(const std::vector<double>& distances);
-
 double mean(const std::vector<double>& values);  ///< NaN if there are none
 
 /// The value below which a share `p` in [0, 1] of the values lies, linearly interpolated between
