@@ -107,7 +107,7 @@ void requireContrast(const cv::Mat& image, const Silhouette& silhouette) {
   message << "the image shows nothing to follow at the target: in " << textOf(surroundings.size())
           << " px around it the lightest and the darkest pixel differ by " << contrast
           << " of 255 grey levels, must differ by at least " << kLeastContrast;
-  throw std::invalid_argument(message.str());
+  throw NothingToSee(message.str());
 }
 
 }  // namespace chain_tracker

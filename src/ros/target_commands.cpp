@@ -112,15 +112,21 @@ void TargetCommands::startOnNextImage(const TargetRequest& request, const ChainM
   const std::uint64_t ticket = registry_->startAtNextFrame(
       request, model, [refusal](const std::string& text) { refusal->set_value(text); });
   const std::chrono::duration<double> timeout(parameters_.init_timeout);
-  if (answer.wait_for(timeout) == std::future_status::timeout && registry_->withdraw(ticket)) {
-    std::ostringstream reason;
-    const std::lock_guard<std::mutex> lock(image_fault_mutex_);
-    reason << "no image on topic " << image_topic_ << " within " << parameters_.init_timeout << " s"
-           << (image_fault_.empty() ? "" : " that can be read: " + image_fault_);
-    throw std::runtime_error(reason.str());
+  if (answer.wait_for(timeout) == std::future_status::timeout) {
+    if (const auto reason = registry_->withdraw(ticket)) refuseForWantOfAnImage(*reason);
   }
   const std::string text = answer.get();
   if (!text.empty()) throw std::runtime_error(text);
+}
+
+/// `reason`: why the images that came do not do, if they can be read.
+void TargetCommands::refuseForWantOfAnImage(const std::string& reason) const {
+  const std::lock_guard<std::mutex> lock(image_fault_mutex_);
+  const std::string& fault = image_fault_.empty() ? reason : image_fault_;
+  std::ostringstream sentence;
+  sentence << "no image on topic " << image_topic_ << " within " << parameters_.init_timeout << " s"
+           << (fault.empty() ? "" : " that can be used: " + fault);
+  throw std::runtime_error(sentence.str());
 }
 
 bool TargetCommands::removeTarget(RemoveTarget::Request& request,

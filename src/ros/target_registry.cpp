@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "chain_tracker/chain/target_checks.h"
 #include "chain_tracker/ros/image_conversion.h"
 #include "chain_tracker/ros/msg_conversion.h"
 
@@ -57,18 +58,19 @@ std::uint64_t TargetRegistry::startAtNextFrame(const TargetRequest& request,
   if (closed_) {
     answer(kClosed);
   } else {
-    waiting_.push_back({last_ticket_, request, model, std::move(answer)});
+    waiting_.push_back({last_ticket_, request, model, std::move(answer), ""});
   }
   return last_ticket_;
 }
 
-bool TargetRegistry::withdraw(std::uint64_t ticket) {
+std::optional<std::string> TargetRegistry::withdraw(std::uint64_t ticket) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto found = std::find_if(waiting_.begin(), waiting_.end(),
                                   [=](const Waiting& waiting) { return waiting.ticket == ticket; });
-  if (found == waiting_.end()) return false;
+  if (found == waiting_.end()) return std::nullopt;
+  std::string reason = std::move(found->reason);
   waiting_.erase(found);
-  return true;
+  return reason;
 }
 
 TargetRegistry::Target TargetRegistry::start(const Frame& frame, const cv::Mat& image,
@@ -131,7 +133,7 @@ FrameResult TargetRegistry::process(const Frame& frame, const cv::Mat& image) {
   const std::lock_guard<std::mutex> lock(mutex_);
   FrameResult result;
   advanceAll(frame, image, &result);
-  startWaiting(frame, image);
+  startWaiting(frame, image, &result);
   last_frame_ = frame.number;
   for (const auto& [id, target] : targets_) {
     // A target started on a frame that has yet to be processed is not told of before.
@@ -197,18 +199,29 @@ void TargetRegistry::advance(const Frame& frame, const cv::Mat& image, Target* t
   }
 }
 
-void TargetRegistry::startWaiting(const Frame& frame, const cv::Mat& image) {
-  for (const Waiting& waiting : waiting_) {
-    std::string refusal;
-    try {
-      targets_.insert_or_assign(waiting.request.id,
-                                start(frame, image, waiting.request.points, waiting.model));
-    } catch (const std::exception& error) {
-      refusal = error.what();
-    }
-    waiting.answer(refusal);
+bool TargetRegistry::tryToStart(const Frame& frame, const cv::Mat& image, Waiting& waiting) {
+  std::string refusal;
+  try {
+    targets_.insert_or_assign(waiting.request.id,
+                              start(frame, image, waiting.request.points, waiting.model));
+  } catch (const NothingToSee& error) {
+    waiting.reason = error.what();
+    return false;
+  } catch (const std::exception& error) {
+    refusal = error.what();
   }
-  waiting_.clear();
+  waiting.answer(refusal);
+  return true;
+}
+
+void TargetRegistry::startWaiting(const Frame& frame, const cv::Mat& image, FrameResult* result) {
+  std::vector<Waiting> still_waiting;
+  for (Waiting& waiting : waiting_) {
+    if (tryToStart(frame, image, waiting)) continue;
+    result->faults.push_back({waiting.request.id, "waits to start: " + waiting.reason});
+    still_waiting.push_back(std::move(waiting));
+  }
+  waiting_ = std::move(still_waiting);
 }
 
 }  // namespace chain_tracker

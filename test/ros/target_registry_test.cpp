@@ -155,6 +155,29 @@ TEST_F(TargetRegistryTest, AFaultyStartInThePastChangesNothing) {
   EXPECT_TRUE(show(scene_.with({kStart}), 2.0).objects.empty());
 }
 
+TEST_F(TargetRegistryTest, AnObjectWaitsForAFrameThatShowsAnything) {
+  const cv::Mat black(scene_.wall().size(), CV_8UC3, cv::Scalar());
+  const auto answer = expect("a", RenderedScene::endsOf(kStart));
+  FrameResult result = show(black, 1.0);
+  EXPECT_TRUE(result.objects.empty());
+  ASSERT_EQ(result.faults.size(), 1u);
+  EXPECT_NE(result.faults[0].reason.find("nothing to follow"), std::string::npos);
+  EXPECT_FALSE(answer->has_value());
+  result = show(scene_.with({kStart}), 2.0);
+  EXPECT_TRUE(result.faults.empty());
+  ASSERT_EQ(result.objects.size(), 1u);
+  EXPECT_EQ(result.objects[0].state, TrackedObject::INITIALIZING);
+  EXPECT_EQ(answer->value_or("not answered"), "");
+}
+
+TEST_F(TargetRegistryTest, AWithdrawnObjectTellsWhyItWaited) {
+  const cv::Mat black(scene_.wall().size(), CV_8UC3, cv::Scalar());
+  const std::uint64_t ticket = registry_.startAtNextFrame(
+      {"a", "bottle", RenderedScene::endsOf(kStart)}, model_, [](const std::string&) {});
+  show(black, 1.0);
+  EXPECT_NE(registry_.withdraw(ticket).value_or("").find("nothing to follow"), std::string::npos);
+}
+
 TEST_F(TargetRegistryTest, ARemovedObjectIsGone) {
   expect("a", RenderedScene::endsOf(kStart));
   show(scene_.with({kStart}), 1.0);

@@ -3,6 +3,7 @@
 /// std::invalid_argument naming the thing, its value and what is allowed.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 #include <opencv2/core.hpp>
@@ -11,6 +12,12 @@
 #include "chain_tracker/chain/chain_model.h"
 
 namespace chain_tracker {
+
+/// Another image may do.
+class NothingToSee : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
 
 /// "640x480"
 std::string textOf(const cv::Size& size);
@@ -32,7 +39,7 @@ void requirePartsFit(const ChainLayout& layout, const cv::Size& image_size);
 void requireInside(const Silhouette& silhouette, const cv::Size& image_size);
 
 /// In the target's surroundings some pixels differ: where nothing is to be seen, as before a
-/// covered lens, nothing could be followed.
+/// covered lens, nothing could be followed. Throws NothingToSee.
 void requireContrast(const cv::Mat& image, const Silhouette& silhouette);
 
 }  // namespace chain_tracker

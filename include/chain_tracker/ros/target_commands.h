@@ -53,6 +53,7 @@ class TargetCommands {
 
   std::string start(TargetRequest request, const ros::Time& stamp);
   void startOnNextImage(const TargetRequest& request, const ChainModel& model);
+  [[noreturn]] void refuseForWantOfAnImage(const std::string& reason) const;
 
   const std::string name_;
   const std::string image_topic_;
@@ -61,7 +62,7 @@ class TargetCommands {
   TargetRegistry* const registry_;
   const ImageHistory* const history_;
   std::atomic<bool> paused_{false};
-  std::mutex image_fault_mutex_;
+  mutable std::mutex image_fault_mutex_;
   std::string image_fault_;
 
   ros::CallbackQueue queue_;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,13 +39,14 @@ class TargetRegistry {
   /// now. Must not call the registry.
   using Answer = std::function<void(const std::string& refusal)>;
 
-  /// Starts an object on the next frame. One of the same id is replaced if that succeeds.
-  /// Returns a ticket for withdraw().
+  /// Starts an object on the next frame that shows anything where it is to be. One of the same id
+  /// is replaced if that succeeds. Returns a ticket for withdraw().
   std::uint64_t startAtNextFrame(const TargetRequest& request, const ChainModel& model,
                                  Answer answer);
 
-  /// Takes a start back that waits for its frame. False if it was answered already.
-  bool withdraw(std::uint64_t ticket);
+  /// Takes a start back that waits for its frame. Returns why the frames so far did not do, which
+  /// is empty if there were none; nothing if the start was answered already.
+  std::optional<std::string> withdraw(std::uint64_t ticket);
 
   /// Starts an object on a frame of the past and tracks it through the later ones in the history.
   /// Throws std::invalid_argument with the reason; then all is as before.
@@ -83,6 +85,7 @@ class TargetRegistry {
     TargetRequest request;
     ChainModel model;
     Answer answer;
+    std::string reason;  ///< why it still waits
   };
 
   static Target start(const Frame& frame, const cv::Mat& image,
@@ -92,7 +95,9 @@ class TargetRegistry {
   static std::string breakInStream(const Frame& frame, const cv::Mat& image, const Target& target);
   static void advance(const Frame& frame, const cv::Mat& image, Target* target);
   void advanceAll(const Frame& frame, const cv::Mat& image, FrameResult* result);
-  void startWaiting(const Frame& frame, const cv::Mat& image);
+  /// False if the frame shows nothing there.
+  bool tryToStart(const Frame& frame, const cv::Mat& image, Waiting& waiting);
+  void startWaiting(const Frame& frame, const cv::Mat& image, FrameResult* result);
 
   std::mutex mutex_;
   std::map<std::string, Target> targets_;
