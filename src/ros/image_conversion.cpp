@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/ros/image_conversion.h"
 
+#include <cstddef>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <boost/make_shared.hpp>
 #include <sensor_msgs/image_encodings.h>
@@ -29,6 +31,17 @@ std::string colorEncodingOf(const std::string& encoding) {
   return found == kColorEncodings.end() ? encoding : found->second;
 }
 
+/// cv_bridge fails on values of 16 bits whose upper byte comes first.
+sensor_msgs::ImageConstPtr lowByteFirst(const sensor_msgs::ImageConstPtr& message) {
+  if (message->is_bigendian == 0 || encodings::bitDepth(message->encoding) != 16) return message;
+  const auto swapped = boost::make_shared<sensor_msgs::Image>(*message);
+  swapped->is_bigendian = 0;
+  for (std::size_t i = 1; i < swapped->data.size(); i += 2) {
+    std::swap(swapped->data[i - 1], swapped->data[i]);
+  }
+  return swapped;
+}
+
 }  // namespace
 
 cv_bridge::CvImageConstPtr toBgr8(const sensor_msgs::ImageConstPtr& message) {
@@ -36,11 +49,12 @@ cv_bridge::CvImageConstPtr toBgr8(const sensor_msgs::ImageConstPtr& message) {
     throw std::invalid_argument(describe(*message) + " is empty");
   }
   try {
-    const std::string color_encoding = colorEncodingOf(message->encoding);
-    if (color_encoding == message->encoding) {
-      return cv_bridge::toCvShare(message, encodings::BGR8);
+    const sensor_msgs::ImageConstPtr readable = lowByteFirst(message);
+    const std::string color_encoding = colorEncodingOf(readable->encoding);
+    if (color_encoding == readable->encoding) {
+      return cv_bridge::toCvShare(readable, encodings::BGR8);
     }
-    auto renamed = boost::make_shared<cv_bridge::CvImage>(*cv_bridge::toCvShare(message));
+    auto renamed = boost::make_shared<cv_bridge::CvImage>(*cv_bridge::toCvShare(readable));
     renamed->encoding = color_encoding;
     // cvtColor copies even where there is nothing to convert.
     return color_encoding == encodings::BGR8 ? renamed

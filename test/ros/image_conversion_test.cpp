@@ -77,6 +77,23 @@ INSTANTIATE_TEST_SUITE_P(All, PlainEncoding,
                                          Renamed{"mono8", "8UC1"}, Renamed{"mono16", "16UC1"},
                                          Renamed{"bgr16", "16UC3"}, Renamed{"bgra16", "16UC4"}));
 
+class ByteOrder : public testing::TestWithParam<Renamed> {};
+
+TEST_P(ByteOrder, MakesNoDifference) {
+  const sensor_msgs::ImagePtr message = imageMsg(scene(), ros::Time(1.0), GetParam().made_as);
+  const cv::Mat expected = toBgr8(message)->image.clone();
+  message->encoding = GetParam().sent_as;
+  message->is_bigendian = 1;
+  for (std::size_t i = 1; i < message->data.size(); i += 2) {
+    std::swap(message->data[i - 1], message->data[i]);
+  }
+  EXPECT_EQ(meanDifference(toBgr8(message)->image, expected), 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ByteOrder,
+                         testing::Values(Renamed{"mono16", "mono16"}, Renamed{"mono16", "16UC1"},
+                                         Renamed{"bgr16", "bgr16"}, Renamed{"rgba16", "rgba16"}));
+
 TEST(ImageConversion, DemosaicsEveryBayerPattern) {
   // An image of one colour has the same mosaic values wherever the pattern begins.
   const cv::Vec3b color(40, 120, 220);
