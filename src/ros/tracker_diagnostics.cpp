@@ -30,7 +30,8 @@ void TrackerDiagnostics::report(std::uint64_t drops,
     if (object.state == TrackedObject::LOST) lost += " '" + object.id + "'";
   }
   if (unreadable_frames_ > 0) {
-    status->summary(DiagnosticStatus::ERROR, "unreadable images: " + unreadable_reason_);
+    const auto level = frames_ == 0 ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN;
+    status->summary(level, "unreadable images: " + unreadable_reason_);
   } else if (frames_ == 0) {
     status->summary(DiagnosticStatus::WARN, "no images");
   } else if (!lost.empty()) {

@@ -50,6 +50,9 @@ TEST(TrackerDiagnostics, TellsOfImagesThatCannotBeRead) {
   EXPECT_NE(status.message.find("32FC1"), std::string::npos);
   EXPECT_EQ(valueOf(status, "Unreadable frames"), "2");
   EXPECT_EQ(reportOf(&diagnostics).message, "no images");
+  diagnostics.recordUnreadable("empty");
+  diagnostics.record(oneObject(TrackedObject::TRACKING), ros::Duration(0.02));
+  EXPECT_EQ(reportOf(&diagnostics).level, DiagnosticStatus::WARN) << "one among others";
 }
 
 TEST(TrackerDiagnostics, WarnsOfALostObjectByItsName) {

@@ -23,8 +23,8 @@ class TrackerDiagnostics {
   /// Notes an image that could not be read, and why.
   void recordUnreadable(const std::string& reason);
 
-  /// Reports since the last report. A warning if no image came or an object is LOST, an error if
-  /// images came that could not be read.
+  /// Reports since the last report. A warning if no image came, an object is LOST or an image could
+  /// not be read; an error if images came and none could.
   void report(std::uint64_t drops, diagnostic_updater::DiagnosticStatusWrapper* status);
 
  private:
