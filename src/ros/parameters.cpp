@@ -10,9 +10,9 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-const std::set<std::string> kKeys = {"image_transport", "models_folder", "default_model",
-                                     "default_id",      "init_timeout",  "history",
-                                     "pixel_size",      "targets",       "points"};
+const std::set<std::string> kKeys = {
+    "image_transport", "models_folder", "default_model", "default_id", "init_timeout",
+    "history",         "pixel_size",    "threads",       "targets",    "points"};
 
 /// Read by others in the nodelet's namespace: diagnostic_updater; the worker pool of a process that
 /// holds this nodelet alone; plugins of image_transport, for the topics `image` and `~overlay`.
@@ -113,6 +113,7 @@ TrackerParameters parametersFrom(const XmlRpcValue& tree) {
   reader.read("init_timeout", 0.1, 600.0, &parameters.init_timeout);
   reader.read("history", 0, 1000, &parameters.history);
   reader.read("pixel_size", 1e-6, 1.0, &parameters.pixel_size);
+  reader.read("threads", 0, 256, &parameters.threads);
   if (!reader.faults().empty()) throw std::invalid_argument(reader.faults());
   return parameters;
 }

@@ -146,19 +146,35 @@ FrameResult TargetRegistry::process(const Frame& frame, const cv::Mat& image) {
   return result;
 }
 
+/// They share nothing but the image.
 void TargetRegistry::advanceAll(const Frame& frame, const cv::Mat& image, FrameResult* result) {
-  for (auto& [id, target] : targets_) {
-    const std::string break_in_stream = breakInStream(frame, image, target);
-    try {
-      if (target.frame_number < frame.number) advance(frame, image, &target);
-      if (!break_in_stream.empty()) {
-        result->notes.push_back(restartNote(id, break_in_stream));
-      }
-    } catch (const std::exception& error) {
-      const std::string cannot_start =
-          break_in_stream.empty() ? "" : break_in_stream + ", it cannot start again: ";
-      result->faults.push_back({id, cannot_start + error.what()});
+  std::vector<std::pair<const std::string*, Target*>> targets;
+  targets.reserve(targets_.size());
+  for (auto& [id, target] : targets_) targets.emplace_back(&id, &target);
+  std::vector<FrameResult> results(targets.size());
+  const auto advance_some = [&](const cv::Range& range) {
+    for (auto i = static_cast<std::size_t>(range.start); i < static_cast<std::size_t>(range.end);
+         ++i) {
+      advanceAndTell(frame, image, *targets[i].first, targets[i].second, &results[i]);
     }
+  };
+  cv::parallel_for_({0, static_cast<int>(targets.size())}, advance_some, threads_);
+  for (FrameResult& one : results) {
+    std::move(one.notes.begin(), one.notes.end(), std::back_inserter(result->notes));
+    std::move(one.faults.begin(), one.faults.end(), std::back_inserter(result->faults));
+  }
+}
+
+void TargetRegistry::advanceAndTell(const Frame& frame, const cv::Mat& image, const std::string& id,
+                                    Target* target, FrameResult* result) {
+  const std::string break_in_stream = breakInStream(frame, image, *target);
+  try {
+    if (target->frame_number < frame.number) advance(frame, image, target);
+    if (!break_in_stream.empty()) result->notes.push_back(restartNote(id, break_in_stream));
+  } catch (const std::exception& error) {
+    const std::string cannot_start =
+        break_in_stream.empty() ? "" : break_in_stream + ", it cannot start again: ";
+    result->faults.push_back({id, cannot_start + error.what()});
   }
 }
 

@@ -119,6 +119,7 @@ void TrackerNodelet::configure() {
   }
   parameters_ = parametersFrom(tree);
   prepareForPalettes();
+  registry_.useThreads(parameters_.threads > 0 ? parameters_.threads : cv::getNumberOfCPUs());
   history_ = std::make_unique<ImageHistory>(static_cast<std::size_t>(parameters_.history));
   image_topic_ = getNodeHandle().resolveName("image");
   commands_ = std::make_unique<TargetCommands>(getName(), image_topic_, getPrivateNodeHandle(),

@@ -55,6 +55,7 @@ TEST(Parameters, AreRead) {
   tree["init_timeout"] = 2;
   tree["history"] = 0;
   tree["pixel_size"] = 0.002;
+  tree["threads"] = 3;
   const TrackerParameters parameters = parametersFrom(tree);
   EXPECT_EQ(parameters.image_transport, "compressed");
   EXPECT_EQ(parameters.models_folder, "/models");
@@ -63,6 +64,7 @@ TEST(Parameters, AreRead) {
   EXPECT_EQ(parameters.init_timeout, 2.0);
   EXPECT_EQ(parameters.history, 0);
   EXPECT_EQ(parameters.pixel_size, 0.002);
+  EXPECT_EQ(parameters.threads, 3);
 }
 
 struct Wrong {
@@ -87,6 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"history", "9", "~history is '9', must be an integer in [0, 1000]"},
         Wrong{"init_timeout", 0.0, "~init_timeout is 0, must be a number in [0.1, 600]"},
         Wrong{"init_timeout", "5 s", "~init_timeout is '5 s', must be a number in [0.1, 600]"},
+        Wrong{"threads", -1, "~threads is -1, must be an integer in [0, 256]"},
         Wrong{"pixel_size", -0.001, "~pixel_size is -0.001, must be a number in [1e-06, 1]"},
         Wrong{"default_id", 7, "~default_id is 7, must be a string"},
         Wrong{"default_id", "", "~default_id is '', must be a string that is not empty"}));

@@ -5,8 +5,11 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <ros/serialization.h>
 
 #include "chain_tracker/chain/chain_model_io.h"
 #include "chain_tracker/ros/image_conversion.h"
@@ -288,6 +291,53 @@ TEST_F(TargetRegistryTest, ALostObjectOutlivesAnotherSize) {
   EXPECT_NE(result.faults[0].reason.find("old size"), std::string::npos);
   for (int k = 0; k < 4; ++k) result = show(scene_.with({kStart}), 21.0 + k);
   expectAt(result.objects.at(0), kStart.centre, 8.0);
+}
+
+/// Bytes, for numbers that are none equal nothing.
+std::string bytesOf(const TrackedObject& object) {
+  const ros::SerializedMessage message = ros::serialization::serializeMessage(object);
+  return {message.buf.get(), message.buf.get() + message.num_bytes};
+}
+
+/// Of three bottles of which one leaves: what 12 frames brought.
+std::vector<FrameResult> trackedBy(int threads) {
+  const ChainModel model =
+      loadChainModel(std::string(CHAIN_TRACKER_SOURCE_DIR) + "/config/models/bottle.yaml");
+  const RenderedScene scene(cv::Size(640, 480));
+  TargetRegistry registry;
+  registry.useThreads(threads);
+  const auto at = [](double x, double y) { return BottlePose{{x, y}, 1.5}; };
+  for (const auto& [id, pose] :
+       {std::make_pair("a", at(120, 120)), std::make_pair("b", at(320, 240)),
+        std::make_pair("c", at(520, 360))}) {
+    registry.startAtNextFrame({id, "bottle", RenderedScene::endsOf(pose)}, model,
+                              [](const std::string&) {});
+  }
+  std::vector<FrameResult> results;
+  for (std::uint64_t k = 0; k < 12; ++k) {
+    const auto step = static_cast<double>(k);
+    std::vector<BottlePose> poses = {at(120 + 4 * step, 120), at(320, 240 - 3 * step)};
+    if (k < 4) poses.push_back(at(520 - 2 * step, 360));
+    if (k == 9) registry.restartAll();
+    const cv::Mat image = scene.with(poses);
+    results.push_back(registry.process({k + 1, imageMsg(image, ros::Time(1.0 + step))}, image));
+  }
+  return results;
+}
+
+TEST(TargetRegistryThreads, ChangeNothing) {
+  const std::vector<FrameResult> alone = trackedBy(1);
+  const std::vector<FrameResult> together = trackedBy(3);
+  for (size_t k = 0; k < alone.size(); ++k) {
+    ASSERT_EQ(alone[k].objects.size(), 3u) << k;
+    ASSERT_EQ(together[k].objects.size(), 3u) << k;
+    for (size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(bytesOf(alone[k].objects[i]), bytesOf(together[k].objects[i])) << k << " " << i;
+    }
+    EXPECT_EQ(alone[k].notes, together[k].notes) << k;
+  }
+  ASSERT_EQ(alone[9].notes.size(), 3u);
+  EXPECT_NE(alone[9].notes[1].find("'b'"), std::string::npos);
 }
 
 }  // namespace

@@ -39,6 +39,9 @@ class TargetRegistry {
   /// now. Must not call the registry.
   using Answer = std::function<void(const std::string& refusal)>;
 
+  /// Objects that are tracked at once: at least 1. Not to be called while process() runs.
+  void useThreads(int threads) { threads_ = threads; }
+
   /// Starts an object on the next frame that shows anything where it is to be. One of the same id
   /// is replaced if that succeeds. Returns a ticket for withdraw().
   std::uint64_t startAtNextFrame(const TargetRequest& request, const ChainModel& model,
@@ -94,11 +97,14 @@ class TargetRegistry {
   /// Why the frame does not follow the last one the target has seen; empty if it does.
   static std::string breakInStream(const Frame& frame, const cv::Mat& image, const Target& target);
   static void advance(const Frame& frame, const cv::Mat& image, Target* target);
+  static void advanceAndTell(const Frame& frame, const cv::Mat& image, const std::string& id,
+                             Target* target, FrameResult* result);
   void advanceAll(const Frame& frame, const cv::Mat& image, FrameResult* result);
   /// False if the frame shows nothing there.
   bool tryToStart(const Frame& frame, const cv::Mat& image, Waiting& waiting);
   void startWaiting(const Frame& frame, const cv::Mat& image, FrameResult* result);
 
+  int threads_ = 1;
   std::mutex mutex_;
   std::map<std::string, Target> targets_;
   std::vector<Waiting> waiting_;
