@@ -46,9 +46,10 @@ size_t nearestPart(const std::vector<PartLayout>& parts, const cv::Point2d& poin
   return static_cast<size_t>(std::min_element(parts.begin(), parts.end(), nearer) - parts.begin());
 }
 
-/// Whether the box's sides are parallel to the image's.
-bool isUpright(const std::vector<cv::Point2d>& corners, double orientation) {
-  const double side = directionOf(corners[1] - corners[0]) + orientation;
+/// Whether the object was given by the corners of a box with sides parallel to the image's.
+bool isUprightBox(const std::vector<cv::Point2d>& points, double orientation) {
+  if (points.size() != 4) return false;
+  const double side = directionOf(points[1] - points[0]) + orientation;
   return std::abs(std::sin(2.0 * side)) < 1e-6;
 }
 
@@ -67,7 +68,7 @@ CarriedShape::CarriedShape(const SegmentLayout& segment)
       corners_(segment.corners) {
   if (segment.layout == Layout::kPoints) corners_ = hullOf(segment.points);
   box_turns_ = deformable_ || segment.layout == Layout::kPoints ||
-               !isUpright(corners_, initial_orientation_);
+               !isUprightBox(segment.points, initial_orientation_);
   for (const cv::Point2d& point : segment.points) {
     if (!deformable_) {
       anchors_.push_back({point, nearestPart(segment.parts, point)});

@@ -16,8 +16,10 @@
 namespace chain_tracker {
 namespace {
 
-/// Reach of the widest search, fraction of the image diagonal.
-constexpr double kWidestSearch = 0.5;
+/// Reach of the widest search, fraction of the image diagonal: for an object in doubt, and for one
+/// that is lost and may come back anywhere.
+constexpr double kWidestInDoubt = 0.5;
+constexpr double kWidestWhenLost = 1.0;
 /// A doubtful object is looked for elsewhere in every so many frames.
 constexpr int kFramesPerLook = 2;
 /// How much more likeness it takes to believe that it is there.
@@ -111,7 +113,9 @@ class ChainTracker::Implementation {
   double searchRadius(int failures) const {
     const double diagonal = std::hypot(image_size_.width, image_size_.height);
     const double reach = std::ldexp(model_.search.radius, std::min(failures, 16));
-    return diagonal * std::min(reach, std::max(model_.search.radius, kWidestSearch));
+    const bool is_lost = state_.status == TrackingStatus::kLost;
+    const double widest = is_lost ? kWidestWhenLost : kWidestInDoubt;
+    return diagonal * std::min(reach, std::max(model_.search.radius, widest));
   }
 
   FoundChain find(const ChainState& sought, const SearchRange& range) {

@@ -23,7 +23,7 @@ class EvaluatedChainTracker : public EvaluatedTracker {
 
  private:
   static TrackedFrame report(const ChainState& state) {
-    const Similarity& pose = state.segments.front().image_from_segment;
+    const Similarity pose = meanPose(state);
     return {toString(state.status),
             state.confidence,
             state.status == TrackingStatus::kLost,

@@ -136,7 +136,8 @@ std::vector<cv::Point2d> partsAt(int frame, std::size_t count, const GroundTruth
 std::vector<cv::Point2d> boxAt(int frame, const GroundTruth& truth) {
   const auto box = truth.boxes.find(frame);
   if (box == truth.boxes.end() || !box->second) return {};
-  return frame == 0 && !truth.first_polygon.empty() ? truth.first_polygon : cornersOf(*box->second);
+  const auto polygon = truth.polygons.find(frame);
+  return polygon != truth.polygons.end() ? polygon->second : cornersOf(*box->second);
 }
 
 /// The shape of the object in a frame; empty if the truth does not know it. Where there are parts a
@@ -183,7 +184,7 @@ void readBoxes(const std::string& path, GroundTruth& truth) {
       box = n.size() == 4 ? cv::Rect2d(n[0], n[1], n[2], n[3]) : uprightBounds(cornersIn(n));
       if (!(box->width > 0.0 && box->height > 0.0)) box.reset();
     }
-    if (frame == 0 && box && n.size() == 8) truth.first_polygon = cornersIn(n);
+    if (box && n.size() == 8) truth.polygons[frame] = cornersIn(n);
     truth.boxes[frame++] = box;
   }
 }

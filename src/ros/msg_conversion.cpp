@@ -74,27 +74,6 @@ TrackedPoint toMsg(const CarriedPoint& point, bool lost) {
   return message;
 }
 
-/// The mean over the segments, weighted by their number of parts: positions arithmetically, angles
-/// on the circle, scales geometrically.
-Similarity meanPose(const std::vector<SegmentState>& segments) {
-  Similarity mean;
-  cv::Point2d direction;
-  double log_scale = 0.0;
-  double weight = 0.0;
-  for (const SegmentState& segment : segments) {
-    const Similarity& pose = segment.image_from_segment;
-    const double parts = segment.part_count;
-    mean.translation += parts * pose.translation;
-    direction += parts * cv::Point2d(std::cos(pose.angle), std::sin(pose.angle));
-    log_scale += parts * std::log(pose.scale);
-    weight += parts;
-  }
-  mean.translation *= 1.0 / weight;
-  mean.angle = directionOf(direction);
-  mean.scale = std::exp(log_scale / weight);
-  return mean;
-}
-
 geometry_msgs::Polygon polygonMsg(const std::vector<cv::Point2d>& corners) {
   geometry_msgs::Polygon polygon;
   for (const cv::Point2d& corner : corners) {
@@ -145,7 +124,7 @@ TrackedObject toMsg(const ChainState& state, const std::string& id, const std::s
   for (const CarriedPoint& point : state.points) message.points.push_back(toMsg(point, lost));
   if (lost) return message;
 
-  const Similarity pose = meanPose(state.segments);
+  const Similarity pose = meanPose(state);
   message.pose = poseMsg(pose.translation, pose.angle);
   message.scale = static_cast<float>(pose.scale);
   message.outline = polygonMsg(state.outline);

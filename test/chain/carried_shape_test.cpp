@@ -153,6 +153,20 @@ TEST(CarriedShape, turnedBoxAndPointsAreBoundedAnewAsTheyTurn) {
   }
 }
 
+TEST(CarriedShape, boxOfTwoEndsTurnsHoweverTheyLieAtFirst) {
+  for (const Shape& shape : {shapes()[0], shapes()[1]}) {
+    SCOPED_TRACE(shape.name);
+    const SegmentLayout layout = layOutShape(shape);
+    const CarriedShape carried(layout);
+    const Object object = moved(layout, {1.0, 1.5, {7, 9}});
+    const cv::Rect2d box = carried.box(object.segment, object.parts);
+    expectNear(uprightBounds(carried.outline(object.segment, object.parts)), box);
+    for (const CarriedPoint& end : carried.points(object.segment, object.parts)) {
+      EXPECT_TRUE(box.contains(end.position)) << end.position;
+    }
+  }
+}
+
 /// A line of three parts at 0, 20 and 40, given by five points.
 struct Line {
   SegmentLayout layout;

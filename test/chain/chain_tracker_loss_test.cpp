@@ -2,6 +2,8 @@
 /// What the tracker does when it cannot see the object, or not all of it.
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -88,6 +90,34 @@ TEST(ChainTrackerLoss, boxShownAgainElsewhereIsFound) {
     framesUntil(tracker, box.image(there), TrackingStatus::kTracking, 3);
     for (int frame = 0; frame < 3; ++frame) tracker.update(box.image(there));
     EXPECT_LT(largestError(tracker.state(), there), 3.0);
+  }
+}
+
+/// The box in one of three images side by side, or in none of them.
+cv::Mat wideImage(const DrawnBox& box, int place) {
+  std::vector<cv::Mat> images(3, box.background());
+  if (place >= 0) images.at(static_cast<size_t>(place)) = box.image(kStart);
+  cv::Mat wide;
+  cv::hconcat(images, wide);
+  return wide;
+}
+
+TEST(ChainTrackerLoss, boxShownAgainAtTheOtherEndOfTheImageIsFound) {
+  const DrawnBox box;
+  for (const auto& [from, to] : {std::pair(0, 2), std::pair(2, 0)}) {
+    SCOPED_TRACE(to);
+    const auto at = [](int place) {
+      return Similarity{0.0, 1.0,
+                        kStart.translation + cv::Point2d(place * DrawnBox::kImageWidth, 0.0)};
+    };
+    ChainModel model;
+    model.segments[0].layout = Layout::kPlanar;
+    ChainTracker tracker(model, wideImage(box, from), DrawnBox::corners(at(from)));
+    for (int frame = 0; frame < 8; ++frame) tracker.update(wideImage(box, -1));
+    ASSERT_EQ(TrackingStatus::kLost, tracker.state().status);
+    framesUntil(tracker, wideImage(box, to), TrackingStatus::kTracking, 4);
+    for (int frame = 0; frame < 3; ++frame) tracker.update(wideImage(box, to));
+    EXPECT_LT(largestError(tracker.state(), at(to)), 3.0);
   }
 }
 

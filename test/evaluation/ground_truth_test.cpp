@@ -57,15 +57,16 @@ TEST_F(GroundTruthFiles, BoxesMayBeSeparatedByCommasTabsOrSpaces) {
   for (const auto& [frame, box] : truth.boxes) {
     EXPECT_EQ(box, cv::Rect2d(1, 2, 30, 40)) << "frame " << frame;
   }
-  EXPECT_TRUE(truth.first_polygon.empty());
+  EXPECT_TRUE(truth.polygons.empty());
 }
 
 TEST_F(GroundTruthFiles, PolygonsBecomeTheirUprightBoxes) {
   const GroundTruth truth = boxesIn("10,0,20,10,10,20,0,10\n5,6,7,8\n");
   EXPECT_EQ(truth.boxes.at(0), cv::Rect2d(0, 0, 20, 20));
   EXPECT_EQ(truth.boxes.at(1), cv::Rect2d(5, 6, 7, 8));
-  ASSERT_EQ(truth.first_polygon.size(), 4U);
-  EXPECT_EQ(truth.first_polygon[1], cv::Point2d(20, 10));
+  ASSERT_EQ(truth.polygons.size(), 1U);
+  ASSERT_EQ(truth.polygons.at(0).size(), 4U);
+  EXPECT_EQ(truth.polygons.at(0)[1], cv::Point2d(20, 10));
 }
 
 TEST_F(GroundTruthFiles, NanOrAnEmptyBoxSaysThatThereIsNoObject) {
@@ -166,7 +167,8 @@ TEST_F(GroundTruthFiles, WithoutInitTheFirstTruthStarts) {
   EXPECT_EQ(box->first_frame, 1);
   EXPECT_EQ(box->model, "auto");
   EXPECT_EQ(box->points, (std::vector<cv::Point2d>{{1, 2}, {31, 2}, {31, 42}, {1, 42}}));
-  const auto polygon = readStart(folder_.string(), boxesIn("10,0,20,10,10,20,0,10\n"));
+  const auto polygon =
+      readStart(folder_.string(), boxesIn("nan,nan,nan,nan\n10,0,20,10,10,20,0,10\n"));
   EXPECT_EQ(polygon->points, (std::vector<cv::Point2d>{{10, 0}, {20, 10}, {10, 20}, {0, 10}}));
   const auto points =
       readStart(folder_.string(), pointsIn("frame,part,x,y,visible\n3,0,1,2,1\n3,1,5,6,1\n"));

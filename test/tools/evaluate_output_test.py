@@ -77,6 +77,20 @@ class Output(ProgramTest):
         for word in ("chain_tracker", "kcf", "camshift", "Curves", "Over time", "Worst frames"):
             self.assertTrue(word in report, word)
 
+    def test_a_lost_object_is_nowhere(self):
+        leaving = self.render("leaving", "bottle", 60, "--leave-at", "40", "--leave-for", "15")
+        out = self.folder / "of_leaving"
+        self.evaluate("--sequence", leaving, "--no-report", "--out", out)
+        objects = without_times(out / "objects.csv")
+        lost = {row["frame"] for row in objects if row["state"] == "LOST"}
+        self.assertTrue(0 < len(lost) < len(objects), lost)
+        for table, columns in (("objects.csv", ("x", "y", "w", "h", "theta", "scale")),
+                               ("parts.csv", ("x", "y", "theta", "size")),
+                               ("points.csv", ("x", "y"))):
+            for row in without_times(out / table):
+                for column in columns:
+                    self.assertEqual(row[column] == "nan", row["frame"] in lost, (table, row))
+
     def test_the_summary_has_every_figure(self):
         out = self.folder / "summary"
         self.evaluate("--sequence", self.sequence, "--baselines", "kcf", "--no-report", "--out",

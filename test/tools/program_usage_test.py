@@ -22,6 +22,12 @@ class Usage(unittest.TestCase):
             with self.subTest(command=command):
                 self.assert_refused(sentence, *command)
 
+    def test_unknown_options(self):
+        for program in ("evaluate", "synthesize", "make_bag", "haar_plan", "haar_benchmark",
+                        "tracker_benchmark"):
+            with self.subTest(program=program):
+                self.assert_refused("", program, "--nonsense")
+
     def test_points_are_pairs(self):
         for points in ("1,2,3", "1,2", "1,2,3,4x"):
             with self.subTest(points=points):

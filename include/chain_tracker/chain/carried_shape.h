@@ -30,8 +30,8 @@ class CarriedShape {
   std::vector<cv::Point2d> outline(const SegmentState& segment,
                                    const std::vector<PartState>& parts) const;
 
-  /// Upright box of the object: an upright initial box moves and rescales but does not turn, a
-  /// turned one, points and a deformable object give the bounds of their outline.
+  /// Upright box of the object: a box given by upright corners moves and rescales but does not
+  /// turn; all else gives the bounds of its outline.
   cv::Rect2d box(const SegmentState& segment, const std::vector<PartState>& parts) const;
 
  private:

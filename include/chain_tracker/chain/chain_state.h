@@ -69,4 +69,8 @@ struct ChainState {
   StepTimes times;
 };
 
+/// The pose of the whole: the mean over the segments, of which there must be one, weighted by their
+/// number of parts: positions arithmetically, angles on the circle, scales geometrically.
+Similarity meanPose(const ChainState& state);
+
 }  // namespace chain_tracker

@@ -21,8 +21,8 @@ struct TruePoint {
 struct GroundTruth {
   /// Upright boxes by frame; a frame without an entry has no truth, nullopt says: no object.
   std::map<int, std::optional<cv::Rect2d>> boxes;
-  /// Corners of the first box, in order, if it was given as a polygon.
-  std::vector<cv::Point2d> first_polygon;
+  /// Corners, in order, of the boxes that were given by them, by frame.
+  std::map<int, std::vector<cv::Point2d>> polygons;
   /// Points by frame and index; frames and points may be missing.
   std::map<int, std::map<int, TruePoint>> points;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -22,10 +23,44 @@ std::ofstream openForWriting(const std::string& folder, const std::string& name)
   return file;
 }
 
+/// Of a lost object nothing is known but that it is lost.
+double known(const TrackedFrame& tracked, double value) {
+  return tracked.lost ? std::numeric_limits<double>::quiet_NaN() : value;
+}
+
 ObjectRow objectRow(const EvaluatedFrame& frame) {
   const TrackedFrame& tracked = frame.tracked;
-  return {frame.index,   frame.time_ms,     tracked.state,      tracked.confidence, tracked.box.x,
-          tracked.box.y, tracked.box.width, tracked.box.height, tracked.theta,      tracked.scale};
+  const auto value = [&](double of_found) { return known(tracked, of_found); };
+  return {frame.index,
+          frame.time_ms,
+          tracked.state,
+          tracked.confidence,
+          value(tracked.box.x),
+          value(tracked.box.y),
+          value(tracked.box.width),
+          value(tracked.box.height),
+          value(tracked.theta),
+          value(tracked.scale)};
+}
+
+PartRow partRow(const EvaluatedFrame& frame, int index) {
+  const PartState& part = frame.tracked.parts[static_cast<std::size_t>(index)];
+  const auto value = [&](double of_found) { return known(frame.tracked, of_found); };
+  return {frame.index,
+          index,
+          value(part.position.x),
+          value(part.position.y),
+          value(part.orientation),
+          value(part.side),
+          part.confidence,
+          part.visible};
+}
+
+PointRow pointRow(const EvaluatedFrame& frame, int index) {
+  const CarriedPoint& point = frame.tracked.points[static_cast<std::size_t>(index)];
+  const auto value = [&](double of_found) { return known(frame.tracked, of_found); };
+  return {frame.index,      index,        value(point.position.x), value(point.position.y),
+          point.confidence, point.visible};
 }
 
 void writeObjects(const TrackerRun& run, const std::string& folder) {
@@ -36,18 +71,13 @@ void writeObjects(const TrackerRun& run, const std::string& folder) {
   parts << kPartHeader << "\n";
   points << kPointHeader << "\n";
   for (const EvaluatedFrame& frame : run.frames) {
+    const TrackedFrame& tracked = frame.tracked;
     objects << toCsv(objectRow(frame)) << "\n";
-    int index = 0;
-    for (const PartState& part : frame.tracked.parts) {
-      parts << toCsv(PartRow{frame.index, index++, part.position.x, part.position.y,
-                             part.orientation, part.side, part.confidence, part.visible})
-            << "\n";
+    for (int k = 0; k < static_cast<int>(tracked.parts.size()); ++k) {
+      parts << toCsv(partRow(frame, k)) << "\n";
     }
-    index = 0;
-    for (const CarriedPoint& point : frame.tracked.points) {
-      points << toCsv(PointRow{frame.index, index++, point.position.x, point.position.y,
-                               point.confidence, point.visible})
-             << "\n";
+    for (int k = 0; k < static_cast<int>(tracked.points.size()); ++k) {
+      points << toCsv(pointRow(frame, k)) << "\n";
     }
   }
 }

@@ -11,10 +11,6 @@ namespace {
 
 constexpr const char* kObjectsType = "chain_tracker/TrackedObjectArray";
 
-const geometry_msgs::Pose2D& poseOf(const TrackedObject& object) {
-  return object.segments.empty() ? object.pose : object.segments.front().pose;
-}
-
 PartState partFrom(const PartPose& message) {
   PartState part;
   part.position = {message.pose.x, message.pose.y};
@@ -31,8 +27,8 @@ TrackedFrame frameFrom(const TrackedObject& object) {
   frame.confidence = object.confidence;
   frame.lost = object.state == TrackedObject::LOST;
   frame.box = boxOf(object);
-  frame.theta = poseOf(object).theta;
-  frame.scale = object.segments.empty() ? object.scale : object.segments.front().scale;
+  frame.theta = object.pose.theta;
+  frame.scale = object.scale;
   for (const PartPose& part : object.parts) frame.parts.push_back(partFrom(part));
   for (const TrackedPoint& point : object.points) {
     frame.points.push_back({{point.x, point.y}, point.confidence, point.visible != 0});
