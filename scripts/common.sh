@@ -57,10 +57,17 @@ installed_packages() {
 # ROS Noetic on Ubuntu lives in /opt/ros; Debian's own packages live in /usr.
 NOETIC=/opt/ros/noetic/setup.bash
 
+install_with_rosdep() {
+  install_packages python3-rosdep git
+  [[ -e /etc/ros/rosdep/sources.list.d/20-default.list ]] || as_root rosdep init >&2
+  rosdep update --rosdistro noetic >&2
+  rosdep install --from-paths "$ROOT" --ignore-src --rosdistro noetic -y
+}
+
 install_dependencies() {
   if [[ -e $NOETIC ]]; then
     source_setup "$NOETIC"
-    rosdep install --from-paths "$ROOT" --ignore-src --rosdistro noetic -y
+    install_with_rosdep
   else
     # shellcheck disable=SC2046  # one word a package
     install_packages $(sed 's/#.*//' "$ROOT/scripts/packages.txt")

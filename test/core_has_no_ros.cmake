@@ -11,7 +11,7 @@ string(CONCAT ros_include "^[ \t]*#[ \t]*include[ \t]*[<\"]"
 
 set(faults "")
 set(checked 0)
-foreach(part image chain haar evaluation)
+foreach(part image chain haar evaluation yaml)
   file(GLOB_RECURSE files
     ${SOURCE_DIR}/include/chain_tracker/${part}/* ${SOURCE_DIR}/src/${part}/*)
   foreach(file IN LISTS files)

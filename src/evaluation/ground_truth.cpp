@@ -88,6 +88,13 @@ std::vector<cv::Point2d> pointsIn(const YAML::Node& node, const std::string& pat
   return points;
 }
 
+/// A file lies where the init file says, seen from its folder; anything else is a name.
+std::string modelFrom(const std::string& name_or_file, const std::string& path) {
+  const fs::path file(name_or_file);
+  if (file.extension() != ".yaml" || file.is_absolute()) return name_or_file;
+  return (fs::path(path).parent_path() / file).string();
+}
+
 /// What init.yaml says.
 struct Init {
   SequenceStart start;
@@ -102,7 +109,7 @@ Init readInit(const std::string& path) {
     for (const auto& entry : document) {
       const std::string key = entry.first.as<std::string>();
       if (key == "model") {
-        start.model = entry.second.as<std::string>();
+        start.model = modelFrom(entry.second.as<std::string>(), path);
       } else if (key == "first_frame") {
         start.first_frame = entry.second.as<int>();
         init.first_frame_line = entry.second.Mark().line + 1;

@@ -64,6 +64,10 @@ ChainModel ModelFolder::load(const std::string& name_or_file) const {
 ChainModel ModelFolder::loadFor(const std::vector<cv::Point2d>& points,
                                 const std::string& name_or_file) const {
   if (isFile(name_or_file)) return load(name_or_file);
+  if (points.size() < 2) {
+    throw std::invalid_argument("the object is given " + std::to_string(points.size()) +
+                                " points, must be at least 2");
+  }
   const std::string name = name_or_file == kAuto ? autoModelName(points) : name_or_file;
   return withRoomForParts(load(name), points);
 }

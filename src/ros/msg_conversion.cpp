@@ -133,4 +133,19 @@ TrackedObject toMsg(const ChainState& state, const std::string& id, const std::s
   return message;
 }
 
+std::string stateName(std::uint8_t state) {
+  switch (state) {
+    case TrackedObject::INITIALIZING:
+      return "INITIALIZING";
+    case TrackedObject::TRACKING:
+      return "TRACKING";
+    case TrackedObject::OCCLUDED:
+      return "OCCLUDED";
+    case TrackedObject::LOST:
+      return "LOST";
+    default:
+      return "UNKNOWN";
+  }
+}
+
 }  // namespace chain_tracker

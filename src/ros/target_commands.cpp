@@ -16,6 +16,12 @@ namespace {
 constexpr std::uint32_t kPolygonQueueSize = 5;
 /// One command may wait for an image while others are served.
 constexpr std::uint32_t kThreads = 2;
+/// By which the last click of a closed outline misses the first, at most [px].
+constexpr double kClosingGap = 5.0;
+
+bool isClosedRectangle(const std::vector<cv::Point2d>& points) {
+  return points.size() == 5 && cv::norm(points.front() - points.back()) <= kClosingGap;
+}
 
 }  // namespace
 
@@ -80,9 +86,10 @@ bool TargetCommands::setTarget(SetTarget::Request& request, SetTarget::Response&
 void TargetCommands::receivePolygon(const geometry_msgs::PolygonStampedConstPtr& polygon) {
   TargetRequest target;
   for (const auto& point : polygon->polygon.points) target.points.emplace_back(point.x, point.y);
-  const bool closed_rectangle =
-      target.points.size() == 5 && target.points.front() == target.points.back();
-  if (closed_rectangle) target.points.pop_back();
+  if (isClosedRectangle(target.points)) {
+    target.points.pop_back();
+    if (parameters_.default_model == "auto") target.model = "box";
+  }
   // Tools differ in whether they pass on the image's stamp or write the time of the click.
   const ros::Time& stamp = polygon->header.stamp;
   try {

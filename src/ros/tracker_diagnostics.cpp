@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "chain_tracker/ros/msg_conversion.h"
+
 namespace chain_tracker {
 
 using diagnostic_msgs::DiagnosticStatus;
@@ -20,7 +22,7 @@ void TrackerDiagnostics::recordUnreadable(const std::string& reason) {
   ++unreadable_frames_;
 }
 
-void TrackerDiagnostics::report(std::uint64_t drops,
+void TrackerDiagnostics::report(std::uint64_t drops, bool is_paused,
                                 diagnostic_updater::DiagnosticStatusWrapper* status) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const Clock::time_point now = Clock::now();
@@ -32,6 +34,8 @@ void TrackerDiagnostics::report(std::uint64_t drops,
   if (unreadable_frames_ > 0) {
     const auto level = frames_ == 0 ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN;
     status->summary(level, "unreadable images: " + unreadable_reason_);
+  } else if (frames_ == 0 && is_paused) {
+    status->summary(DiagnosticStatus::OK, "paused");
   } else if (frames_ == 0) {
     status->summary(DiagnosticStatus::WARN, "no images");
   } else if (!lost.empty()) {
@@ -45,7 +49,7 @@ void TrackerDiagnostics::report(std::uint64_t drops,
   status->add("Dropped frames", drops - last_drops_);
   status->add("Unreadable frames", unreadable_frames_);
   for (const TrackedObject& object : last_objects_.objects) {
-    status->add("State of " + object.id, static_cast<int>(object.state));
+    status->add("State of " + object.id, stateName(object.state));
     status->addf("Confidence of " + object.id, "%.2f", object.confidence);
   }
   frames_ = 0;

@@ -137,7 +137,7 @@ void TrackerNodelet::advertise() {
   updater_ = std::make_unique<diagnostic_updater::Updater>(getNodeHandle(), node, getName());
   updater_->setHardwareID("none");
   updater_->add("tracker", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
-    diagnostics_.report(mailbox_.drops(), &status);
+    diagnostics_.report(mailbox_.drops(), commands_->paused(), &status);
   });
   check_timer_ =
       node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { check(); });
@@ -148,9 +148,15 @@ void TrackerNodelet::subscribe() {
   // Settings of the transport's plugin have a namespace of their own, ~image.
   const image_transport::TransportHints hints(parameters_.image_transport, ros::TransportHints(),
                                               ros::NodeHandle(getPrivateNodeHandle(), "image"));
-  image_subscriber_ =
-      image_transport::ImageTransport(getNodeHandle())
-          .subscribe("image", kImageQueueSize, &TrackerNodelet::receive, this, hints);
+  try {
+    image_subscriber_ =
+        image_transport::ImageTransport(getNodeHandle())
+            .subscribe("image", kImageQueueSize, &TrackerNodelet::receive, this, hints);
+  } catch (const image_transport::TransportLoadException& error) {
+    throw std::invalid_argument(
+        "~image_transport is '" + parameters_.image_transport +
+        "', must be raw or a plugin of image_transport that is installed: " + error.what());
+  }
 }
 
 void TrackerNodelet::check() {

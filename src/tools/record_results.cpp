@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chain_tracker/TrackedObjectArray.h>
+#include <chain_tracker/ros/msg_conversion.h>
 #include <cv_bridge/cv_bridge.h>
 #include <image_transport/image_transport.h>
 #include <opencv2/videoio.hpp>

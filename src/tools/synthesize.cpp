@@ -45,8 +45,11 @@ void addMotionOptions(CLI::App& app, Arguments& arguments) {
                  "START LENGTH RATE: shift by RATE px/frame and do nothing else; may be repeated");
   app.add_option("--rotation-burst", arguments.rotation_bursts,
                  "START LENGTH RATE: turn by RATE rad/frame and do nothing else; may be repeated");
-  app.add_option("--leave-at", options.leave_at, "Frame by which the object is out of view");
-  app.add_option("--leave-for", options.leave_for, "Frames that it stays out of view at least");
+  CLI::Option* const at =
+      app.add_option("--leave-at", options.leave_at, "Frame by which the object is out of view");
+  app.add_option("--leave-for", options.leave_for, "Frames that it stays out of view at least")
+      ->needs(at);
+  at->needs("--leave-for");
 }
 
 void addCameraOptions(CLI::App& app, SceneOptions& options) {

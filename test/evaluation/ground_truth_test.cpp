@@ -197,6 +197,14 @@ TEST_F(GroundTruthFiles, InitWithoutPointsLeavesThemToTheTruth) {
   EXPECT_EQ(start->points.size(), 4U);
 }
 
+TEST_F(GroundTruthFiles, ModelFilesOfInitLieInItsFolder) {
+  write("init.yaml", "model: mine.yaml\n");
+  EXPECT_EQ(readStart(folder_.string(), boxesIn("1,2,30,40\n"))->model,
+            (folder_ / "mine.yaml").string());
+  write("init.yaml", "model: /models/mine.yaml\n");
+  EXPECT_EQ(readStart(folder_.string(), boxesIn("1,2,30,40\n"))->model, "/models/mine.yaml");
+}
+
 TEST_F(GroundTruthFiles, InitWithoutPointsMaySayTheirFrame) {
   write("init.yaml", "model: cable\nfirst_frame: 1\n");
   const std::string folder = folder_.string();

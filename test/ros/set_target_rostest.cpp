@@ -199,6 +199,13 @@ TEST_F(PolygonTest, TakesARectangleOpenOrClosed) {
   EXPECT_EQ(objectOf(client_.show(image_), "hand")->points.size(), 4u);
 }
 
+TEST_F(PolygonTest, AClosedOutlineOfFourNeedNotBeExact) {
+  EXPECT_TRUE(isTrackedAfter({{200, 65}, {260, 70}, {245, 180}, {215, 172}, {202, 66}}));
+  const auto object = objectOf(client_.show(image_), "hand");
+  EXPECT_EQ(object->model, "box");
+  EXPECT_EQ(object->points.size(), 4u);
+}
+
 TEST_F(PolygonTest, SurvivesNonsense) {
   EXPECT_FALSE(isTrackedAfter({{10, 10}}, 0.5));
   EXPECT_TRUE(isTrackedAfter(RenderedScene::endsOf(rightBottle())));

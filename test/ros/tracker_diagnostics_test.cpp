@@ -20,9 +20,10 @@ TrackedObjectArray oneObject(std::uint8_t state) {
   return array;
 }
 
-DiagnosticStatusWrapper reportOf(TrackerDiagnostics* diagnostics, std::uint64_t drops = 0) {
+DiagnosticStatusWrapper reportOf(TrackerDiagnostics* diagnostics, std::uint64_t drops = 0,
+                                 bool is_paused = false) {
   DiagnosticStatusWrapper status;
-  diagnostics->report(drops, &status);
+  diagnostics->report(drops, is_paused, &status);
   return status;
 }
 
@@ -39,6 +40,13 @@ TEST(TrackerDiagnostics, WarnsWhereNoImageComes) {
   diagnostics.record(oneObject(TrackedObject::TRACKING), ros::Duration(0.02));
   EXPECT_EQ(reportOf(&diagnostics).level, DiagnosticStatus::OK);
   EXPECT_EQ(reportOf(&diagnostics).message, "no images");
+}
+
+TEST(TrackerDiagnostics, DoesNotMissImagesWhilePaused) {
+  TrackerDiagnostics diagnostics;
+  const DiagnosticStatusWrapper status = reportOf(&diagnostics, 0, true);
+  EXPECT_EQ(status.level, DiagnosticStatus::OK);
+  EXPECT_EQ(status.message, "paused");
 }
 
 TEST(TrackerDiagnostics, TellsOfImagesThatCannotBeRead) {

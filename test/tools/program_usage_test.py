@@ -24,7 +24,8 @@ class Usage(unittest.TestCase):
 
     def test_unknown_options(self):
         for program in ("evaluate", "synthesize", "make_bag", "haar_plan", "haar_benchmark",
-                        "tracker_benchmark"):
+                        "tracker_benchmark", "tracker_node", "record_results",
+                        "evaluate_live"):
             with self.subTest(program=program):
                 self.assert_refused("", program, "--nonsense")
 

@@ -2,6 +2,7 @@
 /// The tracker's state -> messages.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <opencv2/core.hpp>
@@ -15,5 +16,8 @@ namespace chain_tracker {
 /// Of a LOST object only names, confidences and its structure are told: TrackedObject.msg.
 TrackedObject toMsg(const ChainState& state, const std::string& id, const std::string& model,
                     const cv::Size& image_size);
+
+/// Name of a state of TrackedObject, as in objects.csv.
+std::string stateName(std::uint8_t state);
 
 }  // namespace chain_tracker

@@ -23,9 +23,10 @@ class TrackerDiagnostics {
   /// Notes an image that could not be read, and why.
   void recordUnreadable(const std::string& reason);
 
-  /// Reports since the last report. A warning if no image came, an object is LOST or an image could
-  /// not be read; an error if images came and none could.
-  void report(std::uint64_t drops, diagnostic_updater::DiagnosticStatusWrapper* status);
+  /// Reports since the last report. A warning if no image came though the tracker is not paused, an
+  /// object is LOST or an image could not be read; an error if images came and none could.
+  void report(std::uint64_t drops, bool is_paused,
+              diagnostic_updater::DiagnosticStatusWrapper* status);
 
  private:
   using Clock = std::chrono::steady_clock;

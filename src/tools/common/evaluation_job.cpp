@@ -220,6 +220,10 @@ nlohmann::json runJob(const EvaluationJob& job, const std::function<bool()>& int
   const Input input = job.bag.empty() ? openSequence(job) : openBag(job);
   const SequenceStart start = startOf(job, input);
   fs::create_directories(job.out);
+  // Of an earlier run, which this one need not write again.
+  for (const char* name : {"overlay.mp4", "worst_frames.jpg", "report.html"}) {
+    fs::remove(fs::path(job.out) / name);
+  }
 
   const int left = std::max(0, input.frames->count() - start.first_frame);
   Progress progress(job.max_frames > 0 ? std::min(job.max_frames, left) : left);

@@ -5,6 +5,7 @@
 
 #include "bag_topic.h"
 #include "chain_tracker/TrackedObjectArray.h"
+#include "chain_tracker/ros/msg_conversion.h"
 
 namespace chain_tracker {
 namespace {
@@ -54,21 +55,6 @@ const TrackedObject* findObject(const TrackedObjectArray& array, const std::stri
 }
 
 }  // namespace
-
-std::string stateName(std::uint8_t state) {
-  switch (state) {
-    case TrackedObject::INITIALIZING:
-      return "INITIALIZING";
-    case TrackedObject::TRACKING:
-      return "TRACKING";
-    case TrackedObject::OCCLUDED:
-      return "OCCLUDED";
-    case TrackedObject::LOST:
-      return "LOST";
-    default:
-      return "UNKNOWN";
-  }
-}
 
 cv::Rect2d boxOf(const TrackedObject& object) {
   if (object.state == TrackedObject::LOST) return {};

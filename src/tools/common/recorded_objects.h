@@ -14,9 +14,6 @@
 
 namespace chain_tracker {
 
-/// Name of a state of TrackedObject, as in objects.csv.
-std::string stateName(std::uint8_t state);
-
 /// Upright box of the object; empty if it is lost.
 cv::Rect2d boxOf(const TrackedObject& object);
 
