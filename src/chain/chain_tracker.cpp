@@ -22,18 +22,18 @@ constexpr double kWidestInDoubt = 0.5;
 constexpr double kWidestWhenLost = 1.0;
 /// A doubtful object is looked for elsewhere in every so many frames.
 constexpr int kFramesPerLook = 2;
-/// How much more likeness it takes to believe that it is there.
+/// How much more likeness it takes to believe that it is there, or that a line is.
 constexpr double kClearlyBetter = 0.1;
+constexpr double kBetterLine = 0.05;
 /// Of an object in doubt, to each side, at least [rad].
 constexpr double kLeastTurn = 0.4;
 /// Of what the parts can tell: more than that is hidden of an object that counts as occluded. The
 /// corner windows of a box show mostly background, which changes.
 constexpr double kMostHidden = 0.1;
-/// Of the usual likeness: a state that is trusted to be right.
-constexpr double kTrusted = 0.8;
-/// Of the usual likeness: a line that was in doubt is so until it looks like that. Found again
-/// shifted along itself it looks much like the object, but does not slide back by itself.
-constexpr double kReassuring = 0.85;
+/// Of the usual likeness: a state that is trusted to be right, by which it is looked for later. A
+/// line that was in doubt is so until it looks like that: found again shifted along itself it looks
+/// much like the object, but does not slide back by itself.
+constexpr double kTrusted = 0.95;
 /// A line that is found again may have bent by so much more than between two frames, and that in up
 /// to so many steps, as long as each makes it look more as learned by kLeastGain.
 constexpr double kLoose = 3.0;
@@ -147,9 +147,9 @@ class ChainTracker::Implementation {
   }
 
   bool isDoubtful(const FoundChain& found) const {
+    const double doubt_below = model_.search.doubt_below;
     const bool must_reassure = isLine() && frames_doubted_ > 0;
-    const double least = must_reassure ? std::max(model_.search.doubt_below, kReassuring)
-                                       : model_.search.doubt_below;
+    const double least = must_reassure ? std::max(doubt_below, kTrusted) : doubt_below;
     return found.likeness < least * search_.expectations().usualLikeness();
   }
 
@@ -161,7 +161,8 @@ class ChainTracker::Implementation {
   /// A chain elsewhere is believed in if it is clearly better and would do to end a loss.
   void preferBetter(FoundChain other, FoundChain& found) const {
     const bool is_sure = other.state.confidence >= model_.search.found_above;
-    if (is_sure && other.likeness > found.likeness + kClearlyBetter) found = std::move(other);
+    const double gain = isLine() ? kBetterLine : kClearlyBetter;
+    if (is_sure && other.likeness > found.likeness + gain) found = std::move(other);
   }
 
   /// Just beyond what the hypotheses cover, to one side.
