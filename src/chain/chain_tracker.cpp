@@ -30,10 +30,11 @@ constexpr double kLeastTurn = 0.4;
 /// Of what the parts can tell: more than that is hidden of an object that counts as occluded. The
 /// corner windows of a box show mostly background, which changes.
 constexpr double kMostHidden = 0.1;
-/// Of the usual likeness: a state that is trusted to be right, by which it is looked for later. A
-/// line that was in doubt is so until it looks like that: found again shifted along itself it looks
-/// much like the object, but does not slide back by itself.
-constexpr double kTrusted = 0.95;
+/// Of the usual likeness: a state that is trusted to be right, by which it is looked for later.
+constexpr double kTrusted = 0.8;
+/// The same of a line, which is in doubt until then: found again shifted along itself it looks much
+/// like the object, but does not slide back by itself.
+constexpr double kTrustedLine = 0.95;
 /// A line that is found again may have bent by so much more than between two frames, and that in up
 /// to so many steps, as long as each makes it look more as learned by kLeastGain.
 constexpr double kLoose = 3.0;
@@ -149,7 +150,7 @@ class ChainTracker::Implementation {
   bool isDoubtful(const FoundChain& found) const {
     const double doubt_below = model_.search.doubt_below;
     const bool must_reassure = isLine() && frames_doubted_ > 0;
-    const double least = must_reassure ? std::max(doubt_below, kTrusted) : doubt_below;
+    const double least = must_reassure ? std::max(doubt_below, kTrustedLine) : doubt_below;
     return found.likeness < least * search_.expectations().usualLikeness();
   }
 
@@ -224,7 +225,8 @@ class ChainTracker::Implementation {
     frames_lost_ = 0;
     shape_.carry(found);
     search_.observe(chain);
-    if (chain.likeness >= kTrusted * search_.expectations().usualLikeness()) trusted_ = found;
+    const double least = isLine() ? kTrustedLine : kTrusted;
+    if (chain.likeness >= least * search_.expectations().usualLikeness()) trusted_ = found;
     state_ = std::move(found);
   }
 
