@@ -134,18 +134,11 @@ TrackedObject toMsg(const ChainState& state, const std::string& id, const std::s
 }
 
 std::string stateName(std::uint8_t state) {
-  switch (state) {
-    case TrackedObject::INITIALIZING:
-      return "INITIALIZING";
-    case TrackedObject::TRACKING:
-      return "TRACKING";
-    case TrackedObject::OCCLUDED:
-      return "OCCLUDED";
-    case TrackedObject::LOST:
-      return "LOST";
-    default:
-      return "UNKNOWN";
+  for (const TrackingStatus status : {TrackingStatus::kInitializing, TrackingStatus::kTracking,
+                                      TrackingStatus::kOccluded, TrackingStatus::kLost}) {
+    if (toMsg(status) == state) return toString(status);
   }
+  return "UNKNOWN";
 }
 
 }  // namespace chain_tracker

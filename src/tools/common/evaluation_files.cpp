@@ -30,37 +30,46 @@ double known(const TrackedFrame& tracked, double value) {
 
 ObjectRow objectRow(const EvaluatedFrame& frame) {
   const TrackedFrame& tracked = frame.tracked;
-  const auto value = [&](double of_found) { return known(tracked, of_found); };
-  return {frame.index,
-          frame.time_ms,
-          tracked.state,
-          tracked.confidence,
-          value(tracked.box.x),
-          value(tracked.box.y),
-          value(tracked.box.width),
-          value(tracked.box.height),
-          value(tracked.theta),
-          value(tracked.scale)};
+  ObjectRow row;
+  row.frame = frame.index;
+  row.time_ms = frame.time_ms;
+  row.state = tracked.state;
+  row.confidence = tracked.confidence;
+  row.x = known(tracked, tracked.box.x);
+  row.y = known(tracked, tracked.box.y);
+  row.w = known(tracked, tracked.box.width);
+  row.h = known(tracked, tracked.box.height);
+  row.theta = known(tracked, tracked.theta);
+  row.scale = known(tracked, tracked.scale);
+  return row;
 }
 
 PartRow partRow(const EvaluatedFrame& frame, int index) {
-  const PartState& part = frame.tracked.parts[static_cast<std::size_t>(index)];
-  const auto value = [&](double of_found) { return known(frame.tracked, of_found); };
-  return {frame.index,
-          index,
-          value(part.position.x),
-          value(part.position.y),
-          value(part.orientation),
-          value(part.side),
-          part.confidence,
-          part.visible};
+  const TrackedFrame& tracked = frame.tracked;
+  const PartState& part = tracked.parts[static_cast<std::size_t>(index)];
+  PartRow row;
+  row.frame = frame.index;
+  row.part = index;
+  row.x = known(tracked, part.position.x);
+  row.y = known(tracked, part.position.y);
+  row.theta = known(tracked, part.orientation);
+  row.size = known(tracked, part.side);
+  row.confidence = part.confidence;
+  row.visible = part.visible;
+  return row;
 }
 
 PointRow pointRow(const EvaluatedFrame& frame, int index) {
-  const CarriedPoint& point = frame.tracked.points[static_cast<std::size_t>(index)];
-  const auto value = [&](double of_found) { return known(frame.tracked, of_found); };
-  return {frame.index,      index,        value(point.position.x), value(point.position.y),
-          point.confidence, point.visible};
+  const TrackedFrame& tracked = frame.tracked;
+  const CarriedPoint& point = tracked.points[static_cast<std::size_t>(index)];
+  PointRow row;
+  row.frame = frame.index;
+  row.point = index;
+  row.x = known(tracked, point.position.x);
+  row.y = known(tracked, point.position.y);
+  row.confidence = point.confidence;
+  row.visible = point.visible;
+  return row;
 }
 
 void writeObjects(const TrackerRun& run, const std::string& folder) {
