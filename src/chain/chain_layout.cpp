@@ -321,10 +321,12 @@ ChainLayout layOut(const ChainModel& model, const std::vector<cv::Point2d>& poin
   return layout;
 }
 
-cv::Mat1b maskOf(const Silhouette& silhouette, const cv::Size& image_size, double margin) {
+cv::Mat1b maskOf(const Silhouette& silhouette, const cv::Rect& region, double margin) {
   std::vector<cv::Point> points;
-  for (const cv::Point2d& point : silhouette.points) points.push_back(cv::Point(point));
-  cv::Mat1b mask(image_size, uchar(0));
+  for (const cv::Point2d& point : silhouette.points) {
+    points.push_back(cv::Point(point) - region.tl());
+  }
+  cv::Mat1b mask(region.size(), uchar(0));
   if (silhouette.stroke > 0.0) {
     const double width = silhouette.stroke + 2.0 * margin;
     cv::polylines(mask, points, false, 255, std::max(1, cvRound(width)));

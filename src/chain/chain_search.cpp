@@ -78,6 +78,13 @@ PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
           std::min(3, model.scale_hypotheses), fine_step(model.scale_hypotheses, model.scale_step)};
 }
 
+/// A part that the first frame shows half of counts half.
+void weigh(const std::vector<float>& shares, std::vector<cv::Mat1f>& costs) {
+  for (size_t k = 0; k < costs.size(); ++k) {
+    if (shares[k] < 1.0F) costs[k] *= shares[k];
+  }
+}
+
 std::vector<SegmentPose> interpolatedPoses(const std::vector<PoseGrid>& grids,
                                            const ChainMatch& match) {
   std::vector<SegmentPose> poses;
@@ -171,9 +178,10 @@ std::vector<Voter> ChainSearch::votersOf(const ChainState& state, size_t m) {
   std::vector<Voter> voters;
   for (size_t k = 0; k < parts; k += every) {
     const size_t part = first + k;
-    voters.push_back({state.parts[part].position,
-                      appearance_.part(part, turnOf(state, part)).colors,
-                      expectations_.colorOutlierCost(part, model_.appearance.outlier_below)});
+    const PartAppearance& learned = appearance_.part(part, turnOf(state, part));
+    voters.push_back({state.parts[part].position, learned.colors,
+                      expectations_.colorOutlierCost(part, model_.appearance.outlier_below),
+                      learned.known});
   }
   return voters;
 }
@@ -304,12 +312,14 @@ const ChainSearch::Looks& ChainSearch::looksOf(size_t m, double turn) {
   looks.colors.resize(parts);
   looks.edges.resize(parts);
   looks.textures.resize(parts);
+  looks.known.resize(parts);
   for (size_t k = 0; k < parts; ++k) {
     const size_t part = first_part + k;
     const PartAppearance& learned = appearance_.part(part, wrapAngle(turnOf(sought_, part) + turn));
     looks.colors[k] = learned.colors;
     looks.edges[k] = learned.edges;
     looks.textures[k] = learned.texture;
+    looks.known[k] = learned.known;
   }
   return looks;
 }
@@ -321,18 +331,18 @@ void ChainSearch::computeCosts(size_t m, double turn, Stage stage, Candidates& c
   const AppearanceModel& model = model_.appearance;
   computePartCosts(pixels_, Channel::kColors, looks.colors, grid, model.weight, costs,
                    color_workspace_);
-  if (stage == Stage::kCoarse && model.edge_weight > 0.0) {
-    addEdgeCosts(m, looks.edges, candidates);
-  } else if (stage == Stage::kFine && model.haar_weight > 0.0) {
+  if (stage == Stage::kFine && model.haar_weight > 0.0) {
     addTextureCosts(pixels_, looks.textures, grid, model.haar_weight, costs, texture_workspace_);
   }
+  weigh(looks.known, costs);
+  if (stage == Stage::kCoarse && model.edge_weight > 0.0) addEdgeCosts(m, looks, candidates);
 }
 
-void ChainSearch::addEdgeCosts(size_t m, const std::vector<RootHistogram>& edges,
-                               Candidates& candidates) {
+void ChainSearch::addEdgeCosts(size_t m, const Looks& looks, Candidates& candidates) {
   std::vector<cv::Mat1f>& edge_costs = candidates.edge_costs[m];
-  computePartCosts(pixels_, Channel::kEdges, edges, candidates.grids[m],
+  computePartCosts(pixels_, Channel::kEdges, looks.edges, candidates.grids[m],
                    model_.appearance.edge_weight, edge_costs, edge_workspace_);
+  weigh(looks.known, edge_costs);
   std::vector<cv::Mat1f>& costs = candidates.part_costs[m];
   for (size_t k = 0; k < edge_costs.size(); ++k) cv::add(costs[k], edge_costs[k], costs[k]);
 }

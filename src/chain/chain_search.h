@@ -81,6 +81,7 @@ class ChainSearch {
     std::vector<RootHistogram> colors;
     std::vector<RootHistogram> edges;
     std::vector<WindowTexture> textures;
+    std::vector<float> known;  ///< shares
   };
   /// Of the nodes of each segment.
   using NodePositions = std::vector<std::vector<cv::Point2d>>;
@@ -99,7 +100,7 @@ class ChainSearch {
                   double radius, Stage stage, Candidates& candidates);
   const Looks& looksOf(size_t m, double turn);
   void computeCosts(size_t m, double turn, Stage stage, Candidates& candidates);
-  void addEdgeCosts(size_t m, const std::vector<RootHistogram>& edges, Candidates& candidates);
+  void addEdgeCosts(size_t m, const Looks& looks, Candidates& candidates);
   void joinCosts(size_t m, Candidates& candidates) const;
   void keepEdgeCosts(const ChainMatch& coarse_match);
   void robustify(Candidates& candidates) const;

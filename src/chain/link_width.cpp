@@ -52,7 +52,7 @@ double meanEdgeLength(const std::vector<cv::Point2d>& polyline) {
 cv::Mat1b axisColors(const cv::Mat& image, const std::vector<cv::Point2d>& polyline) {
   const double length = meanEdgeLength(polyline);
   const auto stroke = [&](double width) {
-    return maskOf({polyline, std::max(3.0, width * length)}, image.size(), 0.0);
+    return maskOf({polyline, std::max(3.0, width * length)}, {{}, image.size()}, 0.0);
   };
   cv::Mat1b ring = stroke(2.0 * kRingEnd);
   ring.setTo(0, stroke(2.0 * kRingStart));

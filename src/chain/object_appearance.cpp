@@ -13,12 +13,20 @@ constexpr double kTurnStep = 0.05;
 constexpr int kSamplesPerPixel = 2;
 /// Samples along a window's side, at most: more do not change the shares of colours.
 constexpr int kMostSamples = 64;
+/// Share of a window that lies in the first frame: of one that shows less nothing is learned.
+constexpr float kLeastSeen = 0.25F;
+
+void toRootShares(RootHistogram& counts, int all) {
+  if (all == 0) return;
+  for (float& count : counts) count = std::sqrt(count / static_cast<float>(all));
+}
 
 ColorPalette learnPalette(const cv::Mat& image, const Silhouette& silhouette,
                           const AppearanceModel& model) {
-  const cv::Mat1b object = maskOf(silhouette, image.size(), 0.0);
+  const cv::Rect all(cv::Point(), image.size());
+  const cv::Mat1b object = maskOf(silhouette, all, 0.0);
   const double size = std::sqrt(static_cast<double>(cv::countNonZero(object)));
-  cv::Mat1b ring = maskOf(silhouette, image.size(), std::max(2.0, model.ring * size));
+  cv::Mat1b ring = maskOf(silhouette, all, std::max(2.0, model.ring * size));
   ring.setTo(0, object);
   return {image, object, ring, {model.palette_colors, model.min_object_share}};
 }
@@ -33,9 +41,10 @@ ObjectAppearance::ObjectAppearance(const cv::Mat& image, const ChainLayout& layo
   for (const SegmentLayout& segment : layout.segments) {
     for (const PartLayout& part : segment.parts) {
       windows_.push_back({segment.image_from_segment.apply(part.position), part.side});
-      parts_[{windows_.size() - 1, 0}] = learnUpright(windows_.back(), pixels);
     }
   }
+  learnReach(layout.silhouette);
+  for (size_t k = 0; k < windows_.size(); ++k) parts_[{k, 0}] = learnUpright(windows_[k], pixels);
 }
 
 void ObjectAppearance::learnFrame(const cv::Size& size, FramePixels& pixels) {
@@ -49,9 +58,26 @@ void ObjectAppearance::learnFrame(const cv::Size& size, FramePixels& pixels) {
   }
 }
 
+void ObjectAppearance::learnReach(const Silhouette& silhouette) {
+  reach_ = cv::Rect(cv::Point(), entries_.size());
+  for (const Window& window : windows_) {
+    const double half = std::sqrt(0.5) * window.side + 1.0;
+    const cv::Point2d corner(half, half);
+    reach_ |= cv::Rect(cv::Point(window.center - corner), cv::Point(window.center + corner));
+  }
+  object_ = maskOf(silhouette, reach_, 0.0);
+}
+
+/// Beyond the image, what is not of the object is background.
+bool ObjectAppearance::isKnown(const cv::Point& pixel) const {
+  return cv::Rect(cv::Point(), entries_.size()).contains(pixel) ||
+         object_(pixel - reach_.tl()) == 0;
+}
+
 /// As learnTurned(), but with histograms of the very windows that are searched.
 PartAppearance ObjectAppearance::learnUpright(const Window& window, FramePixels& pixels) const {
   PartAppearance appearance = learnTurned(window, 0.0);
+  if (appearance.known < 1.0F) return appearance;
   appearance.colors = learnPart(pixels, Channel::kColors, window.center, window.side);
   appearance.edges = learnPart(pixels, Channel::kEdges, window.center, window.side);
   return appearance;
@@ -77,26 +103,33 @@ PartAppearance ObjectAppearance::learnTurned(const Window& window, double turn) 
   const cv::Rect image(cv::Point(), entries_.size());
   RootHistogram colors(static_cast<size_t>(palette_.size()), 0.0F);
   RootHistogram edges(kEdgeCodes, 0.0F);
+  int seen = 0;
+  int known = 0;
   int quadrants[2][2] = {{0, 0}, {0, 0}};
   for (int row = 0; row < samples; ++row) {
     for (int column = 0; column < samples; ++column) {
       const cv::Point pixel = first + column * along + row * across;
       const bool is_inside = image.contains(pixel);
-      ++colors[is_inside ? entries_(pixel) : ColorPalette::kOther];
-      ++edges[static_cast<size_t>(is_inside ? turnedEdge(pixel, rotation) : kNoEdge)];
+      if (is_inside) ++seen;
+      if (isKnown(pixel)) {
+        ++known;
+        ++colors[is_inside ? entries_(pixel) : ColorPalette::kOther];
+        ++edges[static_cast<size_t>(is_inside ? turnedEdge(pixel, rotation) : kNoEdge)];
+      }
       const cv::Point nearest(std::clamp(pixel.x, 0, image.width - 1),
                               std::clamp(pixel.y, 0, image.height - 1));
       quadrants[2 * row / samples][2 * column / samples] += grey_(nearest);
     }
   }
+  toRootShares(colors, known);
+  toRootShares(edges, known);
   const auto all = static_cast<float>(samples * samples);
-  for (RootHistogram* histogram : {&colors, &edges}) {
-    for (float& count : *histogram) count = std::sqrt(count / all);
-  }
   const auto mean = [&](int row, int column) {
     return 4.0F * static_cast<float>(quadrants[row][column]) / all;
   };
-  return {colors, edges, textureOf(mean(0, 0), mean(0, 1), mean(1, 0), mean(1, 1))};
+  const bool is_seen = static_cast<float>(seen) >= kLeastSeen * all;
+  return {colors, edges, textureOf(mean(0, 0), mean(0, 1), mean(1, 0), mean(1, 1)),
+          is_seen ? static_cast<float>(known) / all : 0.0F};
 }
 
 /// Code of a pixel's edge after a turn.

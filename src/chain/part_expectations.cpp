@@ -10,6 +10,8 @@ namespace {
 
 /// Of a part whose window shows nothing of the object, of the largest cost.
 constexpr double kLeastEvidence = 0.1;
+/// Of a part of which the first frame shows nothing [cost]: more than none, which divides.
+constexpr double kNoEvidence = 1e-3;
 /// Share of the new in what is usual, per frame. A part comes to look different within some ten
 /// frames; an object in doubt for a hundred is still in doubt.
 constexpr double kRise = 0.1;
@@ -25,11 +27,13 @@ double evidenceOf(const PartAppearance& learned, const AppearanceModel& model) {
       0.5 * std::sqrt(std::inner_product(learned.texture.begin(), learned.texture.end(),
                                          learned.texture.begin(), 0.0));
   const double least = kLeastEvidence * (model.weight + model.haar_weight);
-  return std::max(least, model.weight * colors + model.haar_weight * texture);
+  const double told = std::max(least, model.weight * colors + model.haar_weight * texture);
+  return std::max(kNoEvidence, learned.known * told);
 }
 
 double edgeEvidenceOf(const PartAppearance& learned, const AppearanceModel& model) {
-  return model.edge_weight * std::sqrt(std::max(0.0, 1.0 - double(learned.edges[kNoEdge])));
+  const double edges = std::sqrt(std::max(0.0, 1.0 - double(learned.edges[kNoEdge])));
+  return learned.known * model.edge_weight * edges;
 }
 
 double followed(double usual, double now, double sinks) {
@@ -43,13 +47,14 @@ PartExpectations::PartExpectations(ObjectAppearance& appearance, const Appearanc
     : usual_(parts, 1.0) {
   for (size_t k = 0; k < parts; ++k) {
     const PartAppearance& learned = appearance.part(k, 0.0);
+    is_known_.push_back(learned.known > 0.0F);
     evidence_.push_back(evidenceOf(learned, model));
     edge_evidence_.push_back(edgeEvidenceOf(learned, model));
   }
 }
 
 double PartExpectations::confidence(size_t part, double cost) const {
-  return std::clamp(1.0 - cost / evidence_[part], 0.0, 1.0);
+  return is_known_[part] ? std::clamp(1.0 - cost / evidence_[part], 0.0, 1.0) : 0.0;
 }
 
 double PartExpectations::colorOutlierCost(size_t part, double share) const {

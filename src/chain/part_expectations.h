@@ -17,7 +17,7 @@ class PartExpectations {
   PartExpectations(ObjectAppearance& appearance, const AppearanceModel& model, size_t parts);
 
   /// Confidence of a part whose window costs `cost` by colours and texture, in [0, 1]: 0 where it
-  /// costs what a flat piece of background would.
+  /// costs what a flat piece of background would, and where the first frame did not show the part.
   double confidence(size_t part, double cost) const;
 
   /// Cost by colours from which on a part's window is taken for that of something else: its
@@ -49,6 +49,7 @@ class PartExpectations {
   void observe(const std::vector<PartState>& parts, double likeness);
 
  private:
+  std::vector<bool> is_known_;         ///< of each part: whether the first frame showed it
   std::vector<double> evidence_;       ///< of each part: what it would cost on a flat background
   std::vector<double> edge_evidence_;  ///< the same by edges, which the other leaves out
   std::vector<double> usual_;          ///< confidence of each part

@@ -106,6 +106,7 @@ std::vector<cv::Mat1f> costsOf(const RigidSegment& segment, const Cells& cells,
   std::vector<cv::Mat1f> costs;
   computePartCosts(pixels, Channel::kColors, colors, grid, model.weight, costs, workspace);
   for (size_t k = 0; k < voters.size(); ++k) {
+    costs[k] *= voters[k].known;
     softenCosts(voters[k].outlier_cost, model.outlier_slope, costs[k]);
   }
   return costs;

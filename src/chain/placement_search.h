@@ -22,6 +22,7 @@ struct Voter {
   cv::Point2d position;       ///< where the object was [px]
   RootHistogram colors;       ///< that it is to show
   double outlier_cost = 0.0;  ///< from which on it shows something else
+  float known = 1.0F;         ///< share of the window that is known to show them
 };
 
 struct RigidSegment {

@@ -9,9 +9,6 @@
 namespace chain_tracker {
 namespace {
 
-/// A smaller part has no histogram worth the name [px].
-constexpr double kSmallestSide = 4.0;
-
 /// Of the surroundings, to each side, of the size of the target.
 constexpr double kSurroundings = 0.5;
 /// Of the lightest and the darkest pixel, in one of the channels [grey levels]: less is noise.
@@ -19,6 +16,20 @@ constexpr double kLeastContrast = 8.0;
 
 double largestSide(const cv::Size& image_size) {
   return std::min(image_size.width, image_size.height);
+}
+
+/// Bounds first: a mask of what lies far away would not fit into memory. They may cover an image
+/// that a line passes round.
+bool isHalfInside(const Silhouette& silhouette, const cv::Rect2d& bounds,
+                  const cv::Size& image_size) {
+  const cv::Rect2d area(-0.5, -0.5, image_size.width, image_size.height);
+  const cv::Rect2d grown(bounds.x - 0.5, bounds.y - 0.5, bounds.width + 1.0, bounds.height + 1.0);
+  if ((grown & area).area() < 0.5 * grown.area()) return false;
+  const cv::Rect image(cv::Point(), image_size);
+  const cv::Rect all = image | cv::Rect(cv::Point(grown.tl()), cv::Point(grown.br()));
+  const cv::Mat1b mask = maskOf(silhouette, all, 0.0);
+  const int inside = cv::countNonZero(mask(image - all.tl()));
+  return inside > 0 && 2 * inside >= cv::countNonZero(mask);
 }
 
 bool hasPartsRoom(const SegmentLayout& segment, const cv::Size& image_size) {
@@ -75,11 +86,7 @@ bool havePartsRoom(const ChainLayout& layout, const cv::Size& image_size) {
 
 void requireInside(const Silhouette& silhouette, const cv::Size& image_size) {
   const cv::Rect2d bounds = uprightBounds(silhouette.points);
-  const cv::Rect2d image(-0.5, -0.5, image_size.width, image_size.height);
-  const cv::Rect2d grown(bounds.x - 0.5, bounds.y - 0.5, bounds.width + 1.0, bounds.height + 1.0);
-  const bool half_inside = (grown & image).area() >= 0.5 * grown.area();
-  // A line may pass round the image although its bounds cover it.
-  if (half_inside && cv::countNonZero(maskOf(silhouette, image_size, 0.0)) > 0) return;
+  if (isHalfInside(silhouette, bounds, image_size)) return;
   std::ostringstream message;
   message << "the target spans x " << bounds.x << " to " << bounds.br().x << " and y " << bounds.y
           << " to " << bounds.br().y << " px, must lie at least half inside the "

@@ -2,6 +2,9 @@
 #include "chain_tracker/chain/object_appearance.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -114,14 +117,77 @@ TEST(ObjectAppearance, learnsTheStrokeOfALine) {
   EXPECT_EQ(ColorPalette::kOther, entryAt(appearance, image, {100, 150}));
 }
 
-TEST(ObjectAppearance, learnsObjectsThatStickOutOfTheImage) {
-  const cv::Mat image = redAndGreenBox()(cv::Rect(150, 60, 100, 100));
+/// What a window shows, pixel by pixel: the codes of what is known of it.
+struct WindowTwin {
+  double seen = 0.0;                  ///< share inside the image
+  double known = 0.0;                 ///< share that is not of the object beyond the image
+  std::map<int, double> colors = {};  ///< shares in the known
+};
+
+WindowTwin lookPixelByPixel(const ObjectAppearance& appearance, const cv::Mat& image,
+                            const cv::Rect& object, const cv::Rect2d& window) {
+  WindowTwin twin;
+  const cv::Rect pixels(cvRound(window.x), cvRound(window.y), cvRound(window.width),
+                        cvRound(window.height));
+  const double one = 1.0 / pixels.area();
+  for (int y = pixels.y; y < pixels.br().y; ++y) {
+    for (int x = pixels.x; x < pixels.br().x; ++x) {
+      const bool is_seen = cv::Rect(cv::Point(), image.size()).contains({x, y});
+      if (is_seen) twin.seen += one;
+      if (!is_seen && object.contains({x, y})) continue;
+      twin.known += one;
+      twin.colors[is_seen ? entryAt(appearance, image, {x, y}) : ColorPalette::kOther] += one;
+    }
+  }
+  for (auto& [entry, share] : twin.colors) share /= twin.known;
+  return twin;
+}
+
+/// What the image does not show of the object is not taken for background.
+TEST(ObjectAppearance, isThatOfWhatTheImageShows) {
   const ChainModel model = boxModel();
-  // The box is now from -20 to 39.
-  const ChainLayout layout = layOut(model, {{-20, 40}, {39, 40}, {39, 79}, {-20, 79}});
+  int unknown = 0;
+  for (int outside : {0, 4, 10, 16, 28}) {
+    const cv::Mat image = redAndGreenBox()(cv::Rect(130 + outside, 60, 100, 100));
+    const cv::Rect object(-outside, 40, 60, 40);
+    const double right = object.br().x - 1;
+    const ChainLayout layout =
+        layOut(model, {{double(object.x), 40}, {right, 40}, {right, 79}, {double(object.x), 79}});
+    ObjectAppearance appearance(image, layout, model.appearance);
+    const SegmentLayout& segment = layout.segments[0];
+    for (size_t k = 0; k < segment.parts.size(); ++k) {
+      SCOPED_TRACE("part " + std::to_string(k) + ", outside " + std::to_string(outside));
+      const double side = std::round(segment.parts[k].side);
+      const cv::Point2d corner = segment.image_from_segment.apply(segment.parts[k].position) -
+                                 0.5 * cv::Point2d(side - 1, side - 1);
+      const WindowTwin twin =
+          lookPixelByPixel(appearance, image, object, {corner.x, corner.y, side, side});
+      const PartAppearance& part = appearance.part(k, 0.0);
+      if (part.known == 0.0F) {
+        ++unknown;
+        EXPECT_GT(0.3, twin.seen);
+        continue;
+      }
+      EXPECT_LT(0.2, twin.seen);
+      EXPECT_NEAR(twin.known, part.known, 0.05);
+      for (const auto& [entry, share] : twin.colors) {
+        const double root = part.colors[static_cast<size_t>(entry)];
+        EXPECT_NEAR(share, root * root, 0.06) << "entry " << entry;
+      }
+    }
+  }
+  EXPECT_LT(0, unknown);
+}
+
+/// Turned, a window of an object at the border has corners outside, but the object has not.
+TEST(ObjectAppearance, takesWhatIsBesideTheObjectOutsideTheImageForBackground) {
+  const ChainModel model = boxModel();
+  const cv::Mat image = redAndGreenBox()(cv::Rect(130, 60, 100, 100));
+  const ChainLayout layout = layOut(model, {{0, 40}, {59, 40}, {59, 79}, {0, 79}});
   ObjectAppearance appearance(image, layout, model.appearance);
-  const RootHistogram& outside = appearance.part(0, 0.0).colors;
-  EXPECT_GT(outside[ColorPalette::kOther], 0.9F);
+  const PartAppearance& part = appearance.part(0, CV_PI / 4.0);
+  EXPECT_EQ(1.0F, part.known);
+  EXPECT_LT(0.2F, part.colors[ColorPalette::kOther]);
 }
 
 /// The image turned about the part's centre shows in the upright window what was learned for that

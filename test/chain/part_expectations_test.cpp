@@ -52,6 +52,29 @@ TEST_F(PartExpectationsTest, confidenceSinksFromOneToNoughtWithTheCost) {
   }
 }
 
+/// A third of the box is outside the image: whatever it may cost there.
+TEST_F(PartExpectationsTest, partsThatTheFirstFrameDidNotShowTellNothing) {
+  const Similarity start{0.0, 1.0, {14.5, 109.5}};
+  const ChainLayout layout = layOut(model_, DrawnBox::corners(start));
+  ObjectAppearance appearance(DrawnBox().image(start), layout, model_.appearance);
+  const PartExpectations expectations(appearance, model_.appearance, parts_);
+  std::vector<PartState> parts(parts_);
+  std::vector<double> costs(parts_, 0.0);
+  int unknown = 0;
+  for (size_t k = 0; k < parts_; ++k) {
+    const bool is_known = appearance.part(k, 0.0).known > 0.0F;
+    unknown += is_known ? 0 : 1;
+    EXPECT_EQ(is_known ? 1.0 : 0.0, expectations.confidence(k, 0.0)) << "part " << k;
+    parts[k].confidence = is_known ? 0.8 : 0.0;
+    parts[k].visible = is_known;
+    costs[k] = is_known ? 0.0 : 1.0;
+  }
+  EXPECT_LT(0, unknown);
+  EXPECT_NEAR(0.8, expectations.meanConfidence(parts, 0, parts_), 2e-3);
+  EXPECT_NEAR(0.0, expectations.hiddenShare(parts), 2e-3);
+  EXPECT_NEAR(1.0, expectations.likeness(costs, std::vector<double>(parts_, 1.0)), 2e-3);
+}
+
 TEST_F(PartExpectationsTest, theUsualConfidenceFollowsWhatIsObserved) {
   EXPECT_NEAR(1.0, expectations_.usualConfidence(), 1e-9);
   observe(0.4);

@@ -38,7 +38,7 @@ double signedDistance(const Silhouette& silhouette, const cv::Point2d& point) {
 void expectMask(const Silhouette& silhouette, const cv::Size& size, double margin) {
   constexpr double kBlur = 1.6;  // [px]
   SCOPED_TRACE("margin " + std::to_string(margin));
-  const cv::Mat1b mask = maskOf(silhouette, size, margin);
+  const cv::Mat1b mask = maskOf(silhouette, {{}, size}, margin);
   ASSERT_EQ(size, mask.size());
   const double reach = margin + 0.5 * silhouette.stroke;
   int on = 0;
@@ -76,7 +76,7 @@ TEST(MaskOf, endsAtTheImagesBorder) {
 
 TEST(MaskOf, isEmptyForATargetOutsideTheImage) {
   const Silhouette polygon{{{-40.0, -40.0}, {-20.0, -40.0}, {-20.0, -20.0}, {-40.0, -20.0}}, 0.0};
-  EXPECT_EQ(0, cv::countNonZero(maskOf(polygon, {50, 50}, 5.0)));
+  EXPECT_EQ(0, cv::countNonZero(maskOf(polygon, {0, 0, 50, 50}, 5.0)));
 }
 
 TEST(LayOutSilhouette, isTheRectangleGiven) {

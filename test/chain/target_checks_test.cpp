@@ -119,6 +119,11 @@ TEST(RequireInside, refusesALineThatOnlyPassesRoundTheImage) {
   EXPECT_EQ("", omissionsOf(refusalOf([&] { requireInside(line, {100, 80}); }), {"100x80"}));
 }
 
+TEST(RequireInside, refusesALineOfWhichTheImageHoldsAnEnd) {
+  const Silhouette line{{{20, 75}, {-8, 75}, {-8, 2}, {90, -9}}, 2.0};
+  EXPECT_EQ("", omissionsOf(refusalOf([&] { requireInside(line, {100, 80}); }), {"100x80"}));
+}
+
 TEST(RequireInside, passesAStraightLineInside) {
   EXPECT_EQ("", refusalOf([] { requireInside({{{10, 10}, {90, 10}}, 2.0}, {100, 80}); }));
   EXPECT_EQ("", refusalOf([] { requireInside({{{10, 10}, {10, 70}}, 2.0}, {100, 80}); }));

@@ -61,7 +61,8 @@ struct ChainLayout {
 /// finite, coincide or span no area, naming them.
 ChainLayout layOut(const ChainModel& model, const std::vector<cv::Point2d>& points);
 
-/// 255 where the silhouette, grown by `margin` [px] on all sides, covers a pixel.
-cv::Mat1b maskOf(const Silhouette& silhouette, const cv::Size& image_size, double margin);
+/// Of the pixels of `region`: 255 where the silhouette, grown by `margin` [px] on all sides, covers
+/// one.
+cv::Mat1b maskOf(const Silhouette& silhouette, const cv::Rect& region, double margin);
 
 }  // namespace chain_tracker

@@ -21,6 +21,9 @@ struct PartAppearance {
   RootHistogram colors;
   RootHistogram edges;
   WindowTexture texture{};
+  /// Share of the window of which the first frame tells what it shows, in [0, 1]: of what the
+  /// object shows beyond the image it tells nothing. The histograms are of that share.
+  float known = 1.0F;
 };
 
 class ObjectAppearance {
@@ -43,6 +46,8 @@ class ObjectAppearance {
   };
 
   void learnFrame(const cv::Size& size, FramePixels& pixels);
+  void learnReach(const Silhouette& silhouette);
+  bool isKnown(const cv::Point& pixel) const;
   PartAppearance learnUpright(const Window& window, FramePixels& pixels) const;
   PartAppearance learnTurned(const Window& window, double turn) const;
   int turnedEdge(const cv::Point& pixel, const cv::Point2f& rotation) const;
@@ -52,6 +57,8 @@ class ObjectAppearance {
   cv::Mat1b grey_;                    ///< its brightness
   std::vector<cv::Mat1i> gradients_;  ///< of that: right and down
   std::vector<Window> windows_;
+  cv::Rect reach_;    ///< of all windows, however they are turned, and of the first frame
+  cv::Mat1b object_;  ///< the silhouette in there
   std::map<std::pair<size_t, int>, PartAppearance> parts_;  ///< by part and whole turn steps
 };
 

@@ -31,6 +31,9 @@ void requireImage(const cv::Mat& image);
 /// Size and type are those of the first image.
 void requireSameKind(const cv::Mat& image, const cv::Size& first_size, int first_type);
 
+/// A smaller part has no histogram worth the name [px].
+constexpr double kSmallestSide = 4.0;
+
 /// Whether the parts are large enough to have a histogram and fit into the image.
 bool havePartsRoom(const ChainLayout& layout, const cv::Size& image_size);
 void requirePartsFit(const ChainLayout& layout, const cv::Size& image_size);
