@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "chain_tracker/chain/chain_layout.h"
+#include "chain_tracker/chain/target_checks.h"
 #include "chain_tracker/image/pixel_geometry.h"
 
 namespace chain_tracker {
@@ -13,9 +15,11 @@ namespace {
 constexpr double kRightAngleTolerance = 15.0 * CV_PI / 180.0;
 constexpr double kSharpTurn = 45.0 * CV_PI / 180.0;
 constexpr std::size_t kFewPoints = 5;
-/// Of a deformable object.
-constexpr double kNarrowestWindow = 6.0;
+/// Of deformable segments.
+constexpr double kNarrowestWindow = 6.0;  // [px]
 constexpr int kFewestParts = 6;
+/// Of grids.
+constexpr int kFewestCells = 4;
 
 bool isRectangle(const std::vector<cv::Point2d>& points) {
   if (points.size() != 4) return false;
@@ -38,6 +42,24 @@ bool isSharpEverywhere(const std::vector<cv::Point2d>& points) {
   return true;
 }
 
+bool isGrid(const SegmentModel& segment) {
+  return segment.layout == Layout::kElongated || segment.layout == Layout::kPlanar;
+}
+
+/// Takes a part from every grid whose parts are too small; returns whether there was one.
+bool takeCrowdedParts(ChainModel& model, const std::vector<cv::Point2d>& points) {
+  const ChainLayout layout = layOut(model, points);
+  bool was_crowded = false;
+  for (std::size_t m = 0; m < model.segments.size(); ++m) {
+    SegmentModel& segment = model.segments[m];
+    if (!isGrid(segment) || segment.parts <= kFewestCells) continue;
+    if (layout.segments[m].parts.front().side >= kSmallestSide) continue;
+    --segment.parts;
+    was_crowded = true;
+  }
+  return was_crowded;
+}
+
 }  // namespace
 
 std::string autoModelName(const std::vector<cv::Point2d>& points) {
@@ -46,15 +68,18 @@ std::string autoModelName(const std::vector<cv::Point2d>& points) {
   return points.size() <= kFewPoints || isSharpEverywhere(points) ? "articulated" : "cable";
 }
 
-ChainModel withRoomForParts(ChainModel model, const std::vector<cv::Point2d>& points) {
+ChainModel withRoomForParts(const ChainModel& model, const std::vector<cv::Point2d>& points) {
   double length = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) length += cv::norm(points[i] - points[i - 1]);
-  for (SegmentModel& segment : model.segments) {
+  ChainModel roomy = forPolyline(model, points.size());
+  for (SegmentModel& segment : roomy.segments) {
     if (segment.layout != Layout::kDeformable) continue;
     const double room = std::max<double>(kFewestParts, length * segment.window / kNarrowestWindow);
     if (room < segment.parts) segment.parts = static_cast<int>(room);
   }
-  return model;
+  while (takeCrowdedParts(roomy, points)) {
+  }
+  return roomy;
 }
 
 }  // namespace chain_tracker

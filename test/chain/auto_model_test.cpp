@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "chain_tracker/chain/chain_layout.h"
+#include "chain_tracker/chain/target_checks.h"
+
 namespace chain_tracker {
 namespace {
 
 ChainModel cable(int parts) {
   ChainModel model;
-  model.segments.emplace_back();
   model.segments[0].layout = Layout::kDeformable;
   model.segments[0].parts = parts;
   model.segments[0].window = 1.2;
@@ -20,9 +22,36 @@ TEST(WithRoomForParts, keepsWindowsOfDeformableSegmentsWide) {
   EXPECT_EQ(34, withRoomForParts(cable(48), polyline).segments[0].parts) << "170 px * 1.2 / 6 px";
   EXPECT_EQ(20, withRoomForParts(cable(20), polyline).segments[0].parts);
   EXPECT_EQ(6, withRoomForParts(cable(48), {{0, 0}, {20, 0}}).segments[0].parts);
-  ChainModel box = cable(48);
-  box.segments[0].layout = Layout::kPlanar;
-  EXPECT_EQ(48, withRoomForParts(box, polyline).segments[0].parts);
+}
+
+TEST(WithRoomForParts, keepsPartsOfBoxesLargeEnough) {
+  ChainModel model;
+  model.segments[0].layout = Layout::kPlanar;
+  model.segments[0].parts = 30;
+  const auto boxOf = [](double size) {
+    return std::vector<cv::Point2d>{
+        {50, 50}, {50 + size, 50}, {50 + size, 60 + size}, {50, 60 + size}};
+  };
+  EXPECT_EQ(30, withRoomForParts(model, boxOf(60)).segments[0].parts);
+  EXPECT_EQ(4, withRoomForParts(model, boxOf(1)).segments[0].parts);
+  const ChainModel fewer = withRoomForParts(model, boxOf(10));
+  EXPECT_GT(30, fewer.segments[0].parts);
+  EXPECT_LT(4, fewer.segments[0].parts);
+  EXPECT_TRUE(havePartsRoom(layOut(fewer, boxOf(10)), {320, 240}));
+  ChainModel more = fewer;
+  ++more.segments[0].parts;
+  EXPECT_FALSE(havePartsRoom(layOut(more, boxOf(10)), {320, 240})) << "no more than needed";
+}
+
+TEST(WithRoomForParts, keepsPartsOfEachLinkLargeEnough) {
+  ChainModel model;
+  model.segment_per_edge = true;
+  model.segments[0].parts = 12;
+  const std::vector<cv::Point2d> joints = {{50, 50}, {60, 50}, {200, 50}};
+  const ChainModel fewer = withRoomForParts(model, joints);
+  EXPECT_GT(12, fewer.segments[0].parts);
+  EXPECT_EQ(12, fewer.segments[1].parts);
+  EXPECT_TRUE(havePartsRoom(layOut(fewer, joints), {320, 240}));
 }
 
 TEST(AutoModel, TwoEndsAreABottle) { EXPECT_EQ(autoModelName({{10, 10}, {10, 90}}), "bottle"); }

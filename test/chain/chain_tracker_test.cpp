@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "chain_tracker/chain/auto_model.h"
 #include "support/drawn_box.h"
 #include "support/state_text.h"
 
@@ -68,6 +69,35 @@ TEST(ChainTracker, startsWhereItIsTold) {
   EXPECT_NEAR(96.0, state.box.width, 1e-9);
   EXPECT_NEAR(60.0, state.box.height, 1e-9);
   EXPECT_EQ("bottle", tracker.model().name);
+}
+
+/// 12 by 8 pixels.
+TEST(ChainTracker, followsASmallBox) {
+  const DrawnBox box;
+  const auto motion = [](int frame) {
+    return Similarity{0.0, 0.125, {60.0 + 3.0 * frame, 100.0 + 20.0 * std::sin(0.2 * frame)}};
+  };
+  const std::vector<cv::Point2d> start = DrawnBox::corners(motion(0));
+  ChainTracker tracker(withRoomForParts(boxModel(), start), box.image(motion(0)), start);
+  for (int frame = 1; frame <= 60; ++frame) {
+    SCOPED_TRACE("frame " + std::to_string(frame));
+    const ChainState& state = tracker.update(box.image(motion(frame)));
+    ASSERT_EQ("TRACKING", toString(state.status));
+    ASSERT_LT(largestError(state, motion(frame)), kFewPixels);
+  }
+}
+
+/// Half of it is outside at first, on each side in turn.
+TEST(ChainTracker, followsABoxThatComesInOverTheBorder) {
+  const DrawnBox box;
+  const cv::Point2d middle(159.5, 119.5);
+  for (const cv::Point2d& edge : {cv::Point2d(5.5, 119.5), cv::Point2d(314.5, 119.5),
+                                  cv::Point2d(159.5, 5.5), cv::Point2d(159.5, 234.5)}) {
+    SCOPED_TRACE(edge);
+    expectTracked(box, 30, [&](int frame) {
+      return Similarity{0.0, 1.0, edge + frame / 30.0 * (middle - edge)};
+    });
+  }
 }
 
 /// Whatever part of a pixel the points fall on: the same image again must give the same positions.

@@ -17,8 +17,10 @@ namespace chain_tracker {
 /// nobody draws a curve with so few, or if the line turns by more than 45 degrees at each.
 std::string autoModelName(const std::vector<cv::Point2d>& points);
 
-/// The model, with fewer parts in its deformable segments where the polyline is so short that their
-/// windows would be narrower than 6 px; never fewer than 6 parts.
-ChainModel withRoomForParts(ChainModel model, const std::vector<cv::Point2d>& points);
+/// forPolyline(), with fewer parts where the object is so small that their windows would be
+/// narrower than 6 px in deformable segments, which keep 6 parts at least, or than 4 px in
+/// rectangular ones, which keep 4 at least. Throws std::invalid_argument as layOut() if the points
+/// do not suit the model.
+ChainModel withRoomForParts(const ChainModel& model, const std::vector<cv::Point2d>& points);
 
 }  // namespace chain_tracker
