@@ -90,6 +90,7 @@ void checkAppearance(const AppearanceModel& appearance, FaultList& faults) {
   faults.requireRange("appearance/haar_weight", appearance.haar_weight, 0.0, 1000.0);
   faults.requireRange("appearance/outlier_below", appearance.outlier_below, 0.0, 1.0);
   faults.requireRange("appearance/outlier_slope", appearance.outlier_slope, 0.0, 1.0);
+  faults.requireRange("appearance/light_rate", appearance.light_rate, 0.0, 1.0);
 }
 
 void checkSearch(const SearchModel& search, FaultList& faults) {

@@ -146,7 +146,8 @@ void readAppearance(const Reader& reader, AppearanceModel& appearance) {
                   {"edge_weight", into(appearance.edge_weight)},
                   {"haar_weight", into(appearance.haar_weight)},
                   {"outlier_below", into(appearance.outlier_below)},
-                  {"outlier_slope", into(appearance.outlier_slope)}});
+                  {"outlier_slope", into(appearance.outlier_slope)},
+                  {"light_rate", into(appearance.light_rate)}});
 }
 
 void readSearch(const Reader& reader, SearchModel& search) {

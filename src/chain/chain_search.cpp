@@ -41,6 +41,9 @@ constexpr int kFits = 2;
 /// little more.
 constexpr size_t kVoters = 16;
 constexpr size_t kFewestVoters = 4;
+/// Of the usual likeness: from which on a chain tells how the light has changed. It is lower than
+/// what is trusted otherwise, as in another light all looks less as learned.
+constexpr double kTellsLight = 0.5;
 
 /// Of each edge from the one before in the first frame, as far as the shape is remembered.
 std::vector<double> rememberedTurns(const std::vector<EdgeLayout>& edges, double shape_memory) {
@@ -104,6 +107,7 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       appearance_(image, layout, model.appearance),
       expectations_(appearance_, model.appearance, initial.parts.size()),
       overlaps_(initial.parts),
+      light_(model.appearance.light_rate),
       placement_search_(model.appearance, image.size()),
       coarse_(layout.segments.size()),
       fine_(layout.segments.size()),
@@ -118,6 +122,23 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
     variance_shares_.insert(variance_shares_.end(), segment.parts.size(),
                             is_grid ? kCellVariance : 1.0);
   }
+}
+
+void ChainSearch::observe(const FoundChain& found) {
+  expectations_.observe(found.state.parts, found.likeness);
+  if (found.likeness >= kTellsLight * expectations_.usualLikeness()) observeLight(found.state);
+}
+
+void ChainSearch::observeLight(const ChainState& state) {
+  learned_colors_.clear();
+  seen_colors_.clear();
+  for (size_t k = 0; k < state.parts.size(); ++k) {
+    const PartState& part = state.parts[k];
+    if (!part.visible) continue;
+    learned_colors_.push_back(appearance_.part(k, turnOf(state, k)).middle);
+    seen_colors_.push_back(pixels_.objectColor(middleOfWindow(part.position, part.side)));
+  }
+  light_.observe(learned_colors_, seen_colors_);
 }
 
 FoundChain ChainSearch::find(const ChainState& sought, const SearchRange& range) {

@@ -18,6 +18,7 @@
 #include "chain_tracker/chain/pose_grid.h"
 #include "chain_tracker/chain/segment_candidates.h"
 #include "chain_tracker/chain/texture_costs.h"
+#include "light_change.h"
 #include "part_expectations.h"
 #include "part_overlaps.h"
 #include "placement_search.h"
@@ -46,12 +47,10 @@ class ChainSearch {
 
   const PartExpectations& expectations() const { return expectations_; }
   /// To be called with every chain that was taken for the object.
-  void observe(const FoundChain& found) {
-    expectations_.observe(found.state.parts, found.likeness);
-  }
+  void observe(const FoundChain& found);
 
   /// The image in which find() looks from now on; it must live as long.
-  void show(const cv::Mat& image) { pixels_.show(image); }
+  void show(const cv::Mat& image) { pixels_.show(image, light_.gains()); }
 
   /// `sought` moved to the best chain: parts, poses, confidence, energy and times; its status,
   /// outline and points are those of `sought`. Confidence 0 if the springs allow no chain.
@@ -114,6 +113,7 @@ class ChainSearch {
   void settle(std::vector<SegmentPose> poses, FoundChain& found);
   double likeness(const std::vector<RefinedPart>& refined,
                   const std::vector<PartState>& parts) const;
+  void observeLight(const ChainState& state);
   void fillIn(const std::vector<RefinedPart>& parts, const std::vector<SegmentPose>& poses,
               ChainState& found) const;
 
@@ -122,6 +122,7 @@ class ChainSearch {
   ObjectAppearance appearance_;
   PartExpectations expectations_;
   PartOverlaps overlaps_;
+  LightChange light_;
   PlacementSearch placement_search_;
   std::vector<double> initial_orientations_;           // of the parts
   std::vector<std::vector<double>> remembered_turns_;  // of each segment's edges
@@ -136,6 +137,8 @@ class ChainSearch {
   std::vector<double> edge_costs_;          // of the parts where the coarse search found them
 
   FramePixels pixels_;
+  std::vector<ObjectColor> learned_colors_;  // of the parts that are seen
+  std::vector<ObjectColor> seen_colors_;
   PartCostsWorkspace color_workspace_;
   PartCostsWorkspace edge_workspace_;
   TextureCostsWorkspace texture_workspace_;

@@ -16,6 +16,32 @@ constexpr int kMostSamples = 64;
 /// Share of a window that lies in the first frame: of one that shows less nothing is learned.
 constexpr float kLeastSeen = 0.25F;
 
+/// Of a window's side.
+constexpr double kMiddle = 0.3;
+
+/// Points of a window of the first frame, turned back by `turn` [rad].
+class TurnedWindow {
+ public:
+  TurnedWindow(const cv::Point2d& center, double side, double turn) {
+    const int pixels = std::max(1, static_cast<int>(std::lround(side)));
+    samples_ = std::min(kMostSamples, kSamplesPerPixel * pixels);
+    const double spacing = static_cast<double>(pixels) / samples_;
+    along_ = spacing * cv::Point2d(std::cos(turn), -std::sin(turn));
+    across_ = {-along_.y, along_.x};
+    first_ = center - 0.5 * (samples_ - 1) * (along_ + across_);
+  }
+
+  /// Along each side.
+  int samples() const { return samples_; }
+  cv::Point pixelAt(int row, int column) const { return first_ + column * along_ + row * across_; }
+
+ private:
+  int samples_ = 0;
+  cv::Point2d first_;
+  cv::Point2d along_;  // from one sample to the next
+  cv::Point2d across_;
+};
+
 void toRootShares(RootHistogram& counts, int all) {
   if (all == 0) return;
   for (float& count : counts) count = std::sqrt(count / static_cast<float>(all));
@@ -33,9 +59,15 @@ ColorPalette learnPalette(const cv::Mat& image, const Silhouette& silhouette,
 
 }  // namespace
 
+cv::Rect middleOfWindow(const cv::Point2d& center, double side) {
+  const int pixels = std::max(1, static_cast<int>(std::lround(kMiddle * side)));
+  const cv::Point2d corner = center - 0.5 * (pixels - 1) * cv::Point2d(1.0, 1.0);
+  return {cvRound(corner.x), cvRound(corner.y), pixels, pixels};
+}
+
 ObjectAppearance::ObjectAppearance(const cv::Mat& image, const ChainLayout& layout,
                                    const AppearanceModel& model)
-    : palette_(learnPalette(image, layout.silhouette, model)) {
+    : palette_(learnPalette(image, layout.silhouette, model)), image_(image.clone()) {
   FramePixels pixels(palette_, image);
   learnFrame(image.size(), pixels);
   for (const SegmentLayout& segment : layout.segments) {
@@ -91,15 +123,10 @@ const PartAppearance& ObjectAppearance::part(size_t index, double turn) {
 }
 
 PartAppearance ObjectAppearance::learnTurned(const Window& window, double turn) const {
-  const int side = std::max(1, static_cast<int>(std::lround(window.side)));
-  const int samples = std::min(kMostSamples, kSamplesPerPixel * side);
-  const double spacing = static_cast<double>(side) / samples;
-  // From one sample to the next, along a row and along a column.
+  const TurnedWindow turned(window.center, window.side, turn);
+  const int samples = turned.samples();
   const cv::Point2f rotation(static_cast<float>(std::cos(turn)),
                              static_cast<float>(std::sin(turn)));
-  const cv::Point2d along(spacing * std::cos(turn), -spacing * std::sin(turn));
-  const cv::Point2d across(-along.y, along.x);
-  const cv::Point2d first = window.center - 0.5 * (samples - 1) * (along + across);
   const cv::Rect image(cv::Point(), entries_.size());
   RootHistogram colors(static_cast<size_t>(palette_.size()), 0.0F);
   RootHistogram edges(kEdgeCodes, 0.0F);
@@ -108,7 +135,7 @@ PartAppearance ObjectAppearance::learnTurned(const Window& window, double turn) 
   int quadrants[2][2] = {{0, 0}, {0, 0}};
   for (int row = 0; row < samples; ++row) {
     for (int column = 0; column < samples; ++column) {
-      const cv::Point pixel = first + column * along + row * across;
+      const cv::Point pixel = turned.pixelAt(row, column);
       const bool is_inside = image.contains(pixel);
       if (is_inside) ++seen;
       if (isKnown(pixel)) {
@@ -129,7 +156,25 @@ PartAppearance ObjectAppearance::learnTurned(const Window& window, double turn) 
   };
   const bool is_seen = static_cast<float>(seen) >= kLeastSeen * all;
   return {colors, edges, textureOf(mean(0, 0), mean(0, 1), mean(1, 0), mean(1, 1)),
-          is_seen ? static_cast<float>(known) / all : 0.0F};
+          is_seen ? static_cast<float>(known) / all : 0.0F, learnMiddle(window, turn)};
+}
+
+ObjectColor ObjectAppearance::learnMiddle(const Window& window, double turn) const {
+  const TurnedWindow middle(window.center, kMiddle * window.side, turn);
+  const cv::Rect image(cv::Point(), entries_.size());
+  int own = 0;
+  cv::Vec3d sum;
+  for (int row = 0; row < middle.samples(); ++row) {
+    for (int column = 0; column < middle.samples(); ++column) {
+      const cv::Point pixel = middle.pixelAt(row, column);
+      if (!image.contains(pixel) || entries_(pixel) == ColorPalette::kOther) continue;
+      sum += image_.channels() == 3 ? cv::Vec3d(image_.at<cv::Vec3b>(pixel))
+                                    : cv::Vec3d::all(grey_(pixel));
+      ++own;
+    }
+  }
+  const double all = static_cast<double>(middle.samples()) * middle.samples();
+  return {own / all, sum / std::max(1, own)};
 }
 
 /// Code of a pixel's edge after a turn.

@@ -176,25 +176,36 @@ cv::Mat3b greyLevels() {
   return colors;
 }
 
+/// Place of a level in the table; `gain` in ChannelGains::kUnit.
+inline std::uint16_t tableLevel(std::uint16_t level, std::uint16_t gain) {
+  static_assert(255 * ChannelGains::kMost <= std::numeric_limits<std::uint16_t>::max());
+  const auto scaled = static_cast<std::uint16_t>(level * gain);
+  const auto cell = static_cast<std::uint16_t>(scaled / (ChannelGains::kUnit << kShift));
+  return std::min<std::uint16_t>(cell, kLevels - 1);
+}
+
 /// Indices of the lookup table.
 CHAIN_TRACKER_MULTIVERSION
-void indexPixels(const uchar* __restrict bgr, std::uint16_t* __restrict indices,
-                 std::ptrdiff_t pixels) {
+void indexPixels(const uchar* __restrict bgr, const ChannelGains& gains,
+                 std::uint16_t* __restrict indices, std::ptrdiff_t pixels) {
+  const auto blue = static_cast<std::uint16_t>(gains.steps[0]);
+  const auto green = static_cast<std::uint16_t>(gains.steps[1]);
+  const auto red = static_cast<std::uint16_t>(gains.steps[2]);
   for (std::ptrdiff_t i = 0; i < pixels; ++i) {
-    indices[i] = static_cast<std::uint16_t>(((bgr[3 * i] >> kShift) << (2 * kBits)) |
-                                            ((bgr[3 * i + 1] >> kShift) << kBits) |
-                                            (bgr[3 * i + 2] >> kShift));
+    indices[i] = static_cast<std::uint16_t>((tableLevel(bgr[3 * i], blue) << (2 * kBits)) |
+                                            (tableLevel(bgr[3 * i + 1], green) << kBits) |
+                                            tableLevel(bgr[3 * i + 2], red));
   }
 }
 
 /// Computes the indices apart from looking them up, as only they can be vectorised.
-void classifyRow(const uchar* bgr, const std::uint8_t* table, uchar* entries,
-                 std::ptrdiff_t pixels) {
+void classifyRow(const uchar* bgr, const ChannelGains& gains, const std::uint8_t* table,
+                 uchar* entries, std::ptrdiff_t pixels) {
   constexpr std::ptrdiff_t kRun = 256;
   std::uint16_t indices[kRun];
   for (std::ptrdiff_t first = 0; first < pixels; first += kRun) {
     const std::ptrdiff_t run = std::min(kRun, pixels - first);
-    indexPixels(bgr + 3 * first, indices, run);
+    indexPixels(bgr + 3 * first, gains, indices, run);
     for (std::ptrdiff_t i = 0; i < run; ++i) entries[first + i] = table[indices[i]];
   }
 }
@@ -218,7 +229,7 @@ ColorPalette::ColorPalette(const cv::Mat& image, const cv::Mat1b& object, const 
   }
 }
 
-void ColorPalette::classify(const cv::Mat& image, const cv::Rect& region,
+void ColorPalette::classify(const cv::Mat& image, const cv::Rect& region, const ChannelGains& gains,
                             cv::Mat1b& entries) const {
   entries.create(region.size());
   const cv::Rect inside = region & cv::Rect(0, 0, image.cols, image.rows);
@@ -226,10 +237,13 @@ void ColorPalette::classify(const cv::Mat& image, const cv::Rect& region,
   for (int row = inside.y; row < inside.y + inside.height; ++row) {
     uchar* out = entries[row - region.y] + (inside.x - region.x);
     if (image.channels() == 3) {
-      classifyRow(image.ptr(row, inside.x), bgr_table_.data(), out, inside.width);
+      classifyRow(image.ptr(row, inside.x), gains, bgr_table_.data(), out, inside.width);
     } else {
       const uchar* grey = image.ptr(row, inside.x);
-      for (int i = 0; i < inside.width; ++i) out[i] = grey_table_[grey[i]];
+      for (int i = 0; i < inside.width; ++i) {
+        out[i] = grey_table_[static_cast<size_t>(
+            std::min(grey[i] * gains.steps[0] / ChannelGains::kUnit, 255))];
+      }
     }
   }
 }

@@ -23,8 +23,9 @@ cv::Rect nearestPixels(const cv::Rect& region, const cv::Size& image) {
 
 }  // namespace
 
-void FramePixels::show(const cv::Mat& image) {
+void FramePixels::show(const cv::Mat& image, const ChannelGains& gains) {
   image_ = image;
+  gains_ = gains;
   entries_.pixels.create(image.size());
   entries_.known.clear();
   edges_.pixels.create(image.size());
@@ -64,8 +65,17 @@ cv::Mat1b FramePixels::zeroOutside(const cv::Rect& region, PartialPlane& plane,
 cv::Mat1b FramePixels::entries(const cv::Rect& region) {
   static_assert(ColorPalette::kOther == 0);
   return zeroOutside(region, entries_, [&](const cv::Rect& inside, cv::Mat1b& out) {
-    palette_.classify(image_, inside, out);
+    palette_.classify(image_, inside, gains_, out);
   });
+}
+
+ObjectColor FramePixels::objectColor(const cv::Rect& region) {
+  const cv::Rect inside = region & cv::Rect(cv::Point(), image_.size());
+  if (inside.empty()) return {};
+  const cv::Mat1b own = entries(inside);
+  const cv::Scalar mean = cv::mean(image_(inside), own);
+  return {static_cast<double>(cv::countNonZero(own)) / region.area(),
+          image_.channels() == 3 ? cv::Vec3d(mean[0], mean[1], mean[2]) : cv::Vec3d::all(mean[0])};
 }
 
 cv::Mat1b FramePixels::edges(const cv::Rect& region) {

@@ -65,6 +65,7 @@ appearance:
   haar_weight: 2.25
   outlier_below: 0.375
   outlier_slope: 0.75
+  light_rate: 0.625
 search:
   radius: 0.09
   lost_below: 0.125
@@ -98,7 +99,7 @@ ChainModel everyKeyModel() {
   model.segments.emplace_back();
   model.segments[1].name = "nozzle";
   model.joints = {{-0.5, 1.5}};
-  model.appearance = {31, 0.75, 0.375, 5.5, 7.5, 2.25, 0.375, 0.75};
+  model.appearance = {31, 0.75, 0.375, 5.5, 7.5, 2.25, 0.375, 0.75, 0.625};
   model.search = {0.09, 0.125, 0.625, 0.1875, 0.3, 0.625, 0.875};
   return model;
 }
@@ -125,7 +126,7 @@ TEST(ParseChainModel, noKeyIsUntested) {
       ++keys;
     }
   }
-  EXPECT_EQ(39U, keys);
+  EXPECT_EQ(40U, keys);
 }
 
 TEST(ParseChainModel, keysLeftOutKeepTheirDefaults) {
@@ -263,6 +264,7 @@ TEST(ShippedModels, cableBendsAndIsSearchedUnderOnePose) {
   segment.window = 1.0;
   segment.orientation_hypotheses = 1;
   segment.scale_hypotheses = 1;
+  expected.appearance.light_rate = 0.0;
   EXPECT_EQ("", differencesOf(expected, loadChainModel(kShippedModels + "/cable.yaml")));
 }
 

@@ -80,6 +80,7 @@ std::vector<Limits> allLimits() {
       appearanceLimits("haar_weight", &AppearanceModel::haar_weight, 0.0, 1000.0),
       appearanceLimits("outlier_below", &AppearanceModel::outlier_below, 0.0, 1.0),
       appearanceLimits("outlier_slope", &AppearanceModel::outlier_slope, 0.0, 1.0),
+      appearanceLimits("light_rate", &AppearanceModel::light_rate, 0.0, 1.0),
       searchLimits("radius", &SearchModel::radius, 0.002, 1.0),
       searchLimits("lost_below", &SearchModel::lost_below, 0.0, 1.0),
       searchLimits("lost_share", &SearchModel::lost_share, 0.0, 0.8),

@@ -87,6 +87,26 @@ TEST(ChainTracker, followsASmallBox) {
   }
 }
 
+/// Down to half as bright, and from bluish to reddish light.
+TEST(ChainTracker, followsABoxInChangingLight) {
+  const DrawnBox box;
+  for (const cv::Vec3d& last : {cv::Vec3d(0.55, 0.55, 0.55), cv::Vec3d(0.6, 0.9, 1.2)}) {
+    SCOPED_TRACE(last);
+    ChainTracker tracker = startTracker(box);
+    for (int frame = 1; frame <= 60; ++frame) {
+      SCOPED_TRACE("frame " + std::to_string(frame));
+      const Similarity motion{0.0, 1.0, kStart.translation + cv::Point2d(0.5 * frame, 0.2 * frame)};
+      cv::Mat lit;
+      const cv::Vec3d light = cv::Vec3d::all(1.0) + frame / 60.0 * (last - cv::Vec3d::all(1.0));
+      cv::multiply(box.image(motion), cv::Scalar(light[0], light[1], light[2]), lit);
+      const ChainState& state = tracker.update(lit);
+      ASSERT_EQ("TRACKING", toString(state.status));
+      ASSERT_LT(largestError(state, motion), kFewPixels);
+      ASSERT_GT(state.confidence, 0.7);
+    }
+  }
+}
+
 /// Half of it is outside at first, on each side in turn.
 TEST(ChainTracker, followsABoxThatComesInOverTheBorder) {
   const DrawnBox box;

@@ -42,7 +42,7 @@ ChainLayout boxLayout(const ChainModel& model) {
 
 int entryAt(const ObjectAppearance& appearance, const cv::Mat& image, const cv::Point& pixel) {
   cv::Mat1b entry;
-  appearance.palette().classify(image, {pixel.x, pixel.y, 1, 1}, entry);
+  appearance.palette().classify(image, {pixel.x, pixel.y, 1, 1}, {}, entry);
   return entry(0, 0);
 }
 
@@ -216,6 +216,30 @@ TEST(ObjectAppearance, ofATurnedPartIsThatOfTheTurnedImage) {
       }
     }
   }
+}
+
+/// The middles of the red parts are red, those of the green ones green, however they are turned.
+TEST(ObjectAppearance, middlesOfPartsHaveTheirColors) {
+  const ChainModel model = boxModel();
+  const ChainLayout layout = boxLayout(model);
+  ObjectAppearance appearance(redAndGreenBox(), layout, model.appearance);
+  const SegmentLayout& segment = layout.segments[0];
+  for (size_t k = 0; k < segment.parts.size(); ++k) {
+    const cv::Point2d center = segment.image_from_segment.apply(segment.parts[k].position);
+    if (std::abs(center.x - 160.0) < 5.0) continue;
+    const cv::Scalar expected = center.x < 160.0 ? kRed : kGreen;
+    for (double turn : {0.0, 0.5, 2.0}) {
+      const ObjectColor& middle = appearance.part(k, turn).middle;
+      EXPECT_EQ(1.0, middle.share) << "part " << k;
+      EXPECT_LT(cv::norm(middle.mean - cv::Vec3d(expected[0], expected[1], expected[2])), 1e-9)
+          << "part " << k;
+    }
+  }
+}
+
+TEST(MiddleOfWindow, liesAroundItsCenter) {
+  EXPECT_EQ(cv::Rect(97, 47, 6, 6), middleOfWindow({99.6, 49.6}, 20.0));
+  EXPECT_EQ(cv::Rect(100, 50, 1, 1), middleOfWindow({99.6, 50.4}, 1.0));
 }
 
 /// Red is darker than green: the pattern of the window astride both turns with the object.

@@ -40,7 +40,7 @@ struct Scene {
 
 cv::Mat1b classified(const ColorPalette& palette, const cv::Mat& image) {
   cv::Mat1b entries;
-  palette.classify(image, cv::Rect(cv::Point(), image.size()), entries);
+  palette.classify(image, cv::Rect(cv::Point(), image.size()), {}, entries);
   return entries;
 }
 
@@ -230,11 +230,35 @@ TEST(Classify, pixelsOutsideTheImageAreOther) {
     text << region;
     SCOPED_TRACE(text.str());
     cv::Mat1b entries(7, 7, uchar(99));
-    palette.classify(scene.image, region, entries);
+    palette.classify(scene.image, region, {}, entries);
     cv::Mat1b expected(region.size(), ColorPalette::kOther);
     const cv::Rect inside = region & image;
     if (!inside.empty()) whole(inside).copyTo(expected(inside - region.tl()));
     EXPECT_EQ("", firstDifference(expected, entries));
+  }
+}
+
+/// The twin multiplies the image itself.
+TEST(Classify, gainsAreThoseOfTheImagesChannels) {
+  RandomInputs random(6);
+  for (int type : {CV_8UC3, CV_8UC1}) {
+    const Scene scene = noiseScene(type, 6);
+    const ColorPalette palette = scene.palette();
+    const cv::Rect all(cv::Point(), scene.image.size());
+    for (int repeat = 0; repeat < 30; ++repeat) {
+      ChannelGains gains;
+      cv::Mat brighter = scene.image.clone();
+      const int channels = brighter.channels();
+      for (int& step : gains.steps)
+        step = random.integer(ChannelGains::kLeast, ChannelGains::kMost);
+      for (int i = 0; i < static_cast<int>(brighter.total()) * channels; ++i) {
+        const int step = gains.steps[static_cast<size_t>(i % channels)];
+        brighter.data[i] = cv::saturate_cast<uchar>(brighter.data[i] * step / ChannelGains::kUnit);
+      }
+      cv::Mat1b entries;
+      palette.classify(scene.image, all, gains, entries);
+      ASSERT_EQ("", firstDifference(classified(palette, brighter), entries));
+    }
   }
 }
 

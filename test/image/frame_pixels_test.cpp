@@ -2,6 +2,7 @@
 #include "chain_tracker/image/frame_pixels.h"
 
 #include <algorithm>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -21,6 +22,14 @@ ColorPalette paletteOf(const cv::Mat& image) {
 cv::Rect someRegion(RandomInputs& random) {
   return {random.integer(-30, 60), random.integer(-30, 50), random.integer(1, 40),
           random.integer(1, 40)};
+}
+
+std::vector<cv::Point> pixelsOf(const cv::Rect& region) {
+  std::vector<cv::Point> pixels;
+  for (int y = region.y; y < region.br().y; ++y) {
+    for (int x = region.x; x < region.br().x; ++x) pixels.emplace_back(x, y);
+  }
+  return pixels;
 }
 
 /// Codes outside the image are 0 in every channel.
@@ -78,6 +87,47 @@ TEST(FramePixels, equalThoseOfTheWholeImageInAnyOrder) {
       }
     }
   }
+}
+
+/// The object's pixels one by one.
+TEST(FramePixels, objectColorIsTheMeanOfItsPixels) {
+  RandomInputs random(3);
+  for (int type : {CV_8UC3, CV_8UC1}) {
+    const cv::Mat image = random.noise({53, 41}, type);
+    const ColorPalette palette = paletteOf(image);
+    const cv::Mat1b entries = brute_force::entriesOf(image, palette);
+    FramePixels pixels(palette, image);
+    for (int i = 0; i < 40; ++i) {
+      const cv::Rect region = i == 7 ? cv::Rect(-300, 200, 9, 5) : someRegion(random);
+      cv::Vec3d sum;
+      int own = 0;
+      for (const cv::Point& pixel : pixelsOf(region & cv::Rect(cv::Point(), image.size()))) {
+        if (entries(pixel) == ColorPalette::kOther) continue;
+        ++own;
+        sum += type == CV_8UC3 ? cv::Vec3d(image.at<cv::Vec3b>(pixel))
+                               : cv::Vec3d::all(image.at<uchar>(pixel));
+      }
+      const ObjectColor color = pixels.objectColor(region);
+      ASSERT_NEAR(static_cast<double>(own) / region.area(), color.share, 1e-12) << region;
+      ASSERT_LT(cv::norm(sum / std::max(1, own) - color.mean), 1e-9) << region;
+    }
+  }
+}
+
+TEST(FramePixels, entriesAreThoseInTheLightOfTheFrame) {
+  const cv::Mat image = RandomInputs(4).noise({53, 41}, CV_8UC3);
+  const ColorPalette palette = paletteOf(image);
+  ChannelGains gains;
+  gains.steps = {90, 128, 200};
+  const cv::Rect all(cv::Point(), image.size());
+  cv::Mat1b expected;
+  palette.classify(image, all, gains, expected);
+  FramePixels pixels(palette, image);
+  EXPECT_NE(0, cv::countNonZero(expected != pixels.entries(all)));
+  pixels.show(image, gains);
+  EXPECT_EQ(0, cv::countNonZero(expected != pixels.entries(all)));
+  pixels.show(image);
+  EXPECT_NE(0, cv::countNonZero(expected != pixels.entries(all))) << "the gains are of one frame";
 }
 
 TEST(FramePixels, areComputedOnce) {

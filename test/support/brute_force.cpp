@@ -102,7 +102,7 @@ cv::Mat1b entriesOf(const cv::Mat& image, const ColorPalette& palette) {
   cv::Mat1b one;
   for (int row = 0; row < image.rows; ++row) {
     for (int column = 0; column < image.cols; ++column) {
-      palette.classify(image, {column, row, 1, 1}, one);
+      palette.classify(image, {column, row, 1, 1}, {}, one);
       entries(row, column) = one(0, 0);
     }
   }

@@ -44,6 +44,7 @@ class Differences {
     compare("appearance/haar_weight", expected.haar_weight, actual.haar_weight);
     compare("appearance/outlier_below", expected.outlier_below, actual.outlier_below);
     compare("appearance/outlier_slope", expected.outlier_slope, actual.outlier_slope);
+    compare("appearance/light_rate", expected.light_rate, actual.light_rate);
   }
 
   void compare(const SearchModel& expected, const SearchModel& actual) {

@@ -13,6 +13,7 @@
 #include "chain_tracker/chain/chain_model.h"
 #include "chain_tracker/chain/part_costs.h"
 #include "chain_tracker/image/color_palette.h"
+#include "chain_tracker/image/frame_pixels.h"
 #include "chain_tracker/image/window_textures.h"
 
 namespace chain_tracker {
@@ -24,7 +25,12 @@ struct PartAppearance {
   /// Share of the window of which the first frame tells what it shows, in [0, 1]: of what the
   /// object shows beyond the image it tells nothing. The histograms are of that share.
   float known = 1.0F;
+  ObjectColor middle;  ///< of middleOfWindow()
 };
+
+/// The pixels of the window's middle, three tenths of it in each direction, one at least: along the
+/// object's outline they are its own more surely than those farther out.
+cv::Rect middleOfWindow(const cv::Point2d& center, double side);
 
 class ObjectAppearance {
  public:
@@ -50,9 +56,11 @@ class ObjectAppearance {
   bool isKnown(const cv::Point& pixel) const;
   PartAppearance learnUpright(const Window& window, FramePixels& pixels) const;
   PartAppearance learnTurned(const Window& window, double turn) const;
+  ObjectColor learnMiddle(const Window& window, double turn) const;
   int turnedEdge(const cv::Point& pixel, const cv::Point2f& rotation) const;
 
   ColorPalette palette_;
+  cv::Mat image_;                     ///< the first frame
   cv::Mat1b entries_;                 ///< palette entries of the first frame
   cv::Mat1b grey_;                    ///< its brightness
   std::vector<cv::Mat1i> gradients_;  ///< of that: right and down

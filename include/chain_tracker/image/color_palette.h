@@ -3,6 +3,7 @@
 /// lookup table that turns pixels into them (thesis ch. 3.2.1: colour histograms as appearance).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,16 @@ namespace chain_tracker {
 struct PaletteOptions {
   int colors = 24;                ///< clusters looked for, in [2, 254]
   double min_object_share = 0.5;  ///< in [0, 1)
+};
+
+/// Of each channel, blue, green and red, or of the one of a grey image: by which its levels are
+/// multiplied before they are looked up, so that a palette learned in one light serves in another.
+/// Counted in whole steps of 1 / kUnit, in [kLeast, kMost].
+struct ChannelGains {
+  static constexpr int kUnit = 128;
+  static constexpr int kLeast = kUnit / 2;
+  static constexpr int kMost = kUnit * 2;
+  std::array<int, 3> steps = {kUnit, kUnit, kUnit};
 };
 
 /// Does what the first palette of a process would have to do: OpenCV builds its tables at the first
@@ -35,9 +46,10 @@ class ColorPalette {
   /// Number of entries, "other" included; entries are 0 .. size() - 1.
   int size() const { return size_; }
 
-  /// Entries of the pixels in `region`, which may reach outside the image. `entries` gets the
-  /// region's size. O(region).
-  void classify(const cv::Mat& image, const cv::Rect& region, cv::Mat1b& entries) const;
+  /// Entries of the pixels in `region`, which may reach outside the image, in the light that
+  /// `gains` make up for. `entries` gets the region's size. O(region).
+  void classify(const cv::Mat& image, const cv::Rect& region, const ChannelGains& gains,
+                cv::Mat1b& entries) const;
 
  private:
   int size_ = 1;

@@ -16,6 +16,12 @@ namespace chain_tracker {
 /// What the histograms of windows count.
 enum class Channel { kColors, kEdges };
 
+/// Of the pixels of a region that are the object's.
+struct ObjectColor {
+  double share = 0.0;  ///< of them in the region, in [0, 1]
+  cv::Vec3d mean;      ///< blue, green and red, or thrice the grey level; 0 if there are none
+};
+
 class FramePixels {
  public:
   /// The palette must outlive this.
@@ -25,8 +31,8 @@ class FramePixels {
   }
 
   /// Forgets the image before and takes another of the palette's kind, CV_8UC3 (BGR) or CV_8UC1,
-  /// whose pixels must live on until the last question about them.
-  void show(const cv::Mat& image);
+  /// whose pixels must live on until the last question about them; `gains` make up for its light.
+  void show(const cv::Mat& image, const ChannelGains& gains = {});
 
   const ColorPalette& palette() const { return palette_; }
 
@@ -34,6 +40,9 @@ class FramePixels {
   /// ColorPalette::kOther. Valid until the next call. O(region) at the first time, then O(1) unless
   /// it reaches outside.
   cv::Mat1b entries(const cv::Rect& region);
+
+  /// Of a region that may reach outside the image. O(region).
+  ObjectColor objectColor(const cv::Rect& region);
 
   /// Codes of edge_directions.h in such a region, kNoEdge outside the image; along its border, its
   /// pixels go on. Valid and time as above.
@@ -62,6 +71,7 @@ class FramePixels {
 
   const ColorPalette& palette_;
   cv::Mat image_;
+  ChannelGains gains_;
   PartialPlane entries_;
   PartialPlane edges_;
   PartialPlane grey_;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "light_change.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace chain_tracker {
+namespace {
+
+constexpr size_t kFewestParts = 3;
+/// Of the object in what a part was learned from.
+constexpr double kLeastShare = 0.2;
+/// Of that, that must still be seen.
+constexpr double kLeastSeen = 0.5;
+/// Of a dark channel the ratio is noise [grey levels].
+constexpr double kNoise = 2.0;
+
+constexpr double kUnit = ChannelGains::kUnit;
+constexpr double kLeastGain = ChannelGains::kLeast / kUnit;
+constexpr double kMostGain = ChannelGains::kMost / kUnit;
+
+bool canTell(const ObjectColor& learned, const ObjectColor& seen) {
+  return learned.share >= kLeastShare && seen.share >= kLeastSeen * learned.share;
+}
+
+double medianOf(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+void LightChange::observe(const std::vector<ObjectColor>& learned,
+                          const std::vector<ObjectColor>& seen) {
+  for (int channel = 0; channel < 3; ++channel) {
+    ratios_.clear();
+    for (size_t k = 0; k < learned.size(); ++k) {
+      if (!canTell(learned[k], seen[k])) continue;
+      ratios_.push_back((learned[k].mean[channel] + kNoise) / (seen[k].mean[channel] + kNoise));
+    }
+    if (ratios_.size() < kFewestParts) return;
+    double& gain = gains_[static_cast<size_t>(channel)];
+    gain += rate_ * (std::clamp(medianOf(ratios_), kLeastGain, kMostGain) - gain);
+  }
+}
+
+ChannelGains LightChange::gains() const {
+  ChannelGains gains;
+  for (size_t c = 0; c < gains_.size(); ++c) {
+    gains.steps[c] = static_cast<int>(std::lround(gains_[c] * kUnit));
+  }
+  return gains;
+}
+
+}  // namespace chain_tracker
