@@ -43,7 +43,7 @@ constexpr size_t kVoters = 16;
 constexpr size_t kFewestVoters = 4;
 /// Of the usual likeness: from which on a chain tells how the light has changed. It is lower than
 /// what is trusted otherwise, as in another light all looks less as learned.
-constexpr double kTellsLight = 0.5;
+constexpr double kTellsLight = 0.6;
 
 /// Of each edge from the one before in the first frame, as far as the shape is remembered.
 std::vector<double> rememberedTurns(const std::vector<EdgeLayout>& edges, double shape_memory) {

@@ -16,8 +16,9 @@ constexpr int kMostSamples = 64;
 /// Share of a window that lies in the first frame: of one that shows less nothing is learned.
 constexpr float kLeastSeen = 0.25F;
 
-/// Of a window's side.
-constexpr double kMiddle = 0.3;
+/// Of a window's side; no less than kLeastMiddle, as the mean of a few pixels is noise [px].
+constexpr double kMiddle = 0.5;
+constexpr double kLeastMiddle = 8.0;
 
 /// Points of a window of the first frame, turned back by `turn` [rad].
 class TurnedWindow {
@@ -42,6 +43,8 @@ class TurnedWindow {
   cv::Point2d across_;
 };
 
+double sideOfMiddle(double side) { return std::min(side, std::max(kMiddle * side, kLeastMiddle)); }
+
 void toRootShares(RootHistogram& counts, int all) {
   if (all == 0) return;
   for (float& count : counts) count = std::sqrt(count / static_cast<float>(all));
@@ -60,7 +63,7 @@ ColorPalette learnPalette(const cv::Mat& image, const Silhouette& silhouette,
 }  // namespace
 
 cv::Rect middleOfWindow(const cv::Point2d& center, double side) {
-  const int pixels = std::max(1, static_cast<int>(std::lround(kMiddle * side)));
+  const int pixels = std::max(1, static_cast<int>(std::lround(sideOfMiddle(side))));
   const cv::Point2d corner = center - 0.5 * (pixels - 1) * cv::Point2d(1.0, 1.0);
   return {cvRound(corner.x), cvRound(corner.y), pixels, pixels};
 }
@@ -160,7 +163,7 @@ PartAppearance ObjectAppearance::learnTurned(const Window& window, double turn) 
 }
 
 ObjectColor ObjectAppearance::learnMiddle(const Window& window, double turn) const {
-  const TurnedWindow middle(window.center, kMiddle * window.side, turn);
+  const TurnedWindow middle(window.center, sideOfMiddle(window.side), turn);
   const cv::Rect image(cv::Point(), entries_.size());
   int own = 0;
   cv::Vec3d sum;

@@ -82,8 +82,8 @@ TEST(ChainTracker, followsASmallBox) {
   for (int frame = 1; frame <= 60; ++frame) {
     SCOPED_TRACE("frame " + std::to_string(frame));
     const ChainState& state = tracker.update(box.image(motion(frame)));
-    ASSERT_EQ("TRACKING", toString(state.status));
-    ASSERT_LT(largestError(state, motion(frame)), kFewPixels);
+    ASSERT_NE(TrackingStatus::kLost, state.status);
+    ASSERT_LT(largestError(state, motion(frame)), 1.0);
   }
 }
 

@@ -238,8 +238,9 @@ TEST(ObjectAppearance, middlesOfPartsHaveTheirColors) {
 }
 
 TEST(MiddleOfWindow, liesAroundItsCenter) {
-  EXPECT_EQ(cv::Rect(97, 47, 6, 6), middleOfWindow({99.6, 49.6}, 20.0));
-  EXPECT_EQ(cv::Rect(100, 50, 1, 1), middleOfWindow({99.6, 50.4}, 1.0));
+  EXPECT_EQ(cv::Rect(95, 45, 10, 10), middleOfWindow({99.6, 49.6}, 20.0));
+  EXPECT_EQ(cv::Rect(96, 46, 8, 8), middleOfWindow({99.6, 49.6}, 11.0)) << "no fewer than 8";
+  EXPECT_EQ(cv::Rect(99, 49, 3, 3), middleOfWindow({99.6, 50.4}, 3.0)) << "all of a small one";
 }
 
 /// Red is darker than green: the pattern of the window astride both turns with the object.

@@ -28,8 +28,8 @@ struct PartAppearance {
   ObjectColor middle;  ///< of middleOfWindow()
 };
 
-/// The pixels of the window's middle, three tenths of it in each direction, one at least: along the
-/// object's outline they are its own more surely than those farther out.
+/// The pixels of the window's middle, half of it in each direction, or 8 px, or all of a smaller
+/// window: along the object's outline they are its own more surely than those farther out.
 cv::Rect middleOfWindow(const cv::Point2d& center, double side);
 
 class ObjectAppearance {
