@@ -280,6 +280,7 @@ TEST(ShippedModels, articulatedHasALinkForEveryEdge) {
   segment.margin = 0.0;
   segment.scale_hypotheses = 1;
   segment.scale_step = 0.01;
+  expected.appearance.light_rate = 0.1;
   EXPECT_EQ("", differencesOf(expected, loadChainModel(kShippedModels + "/articulated.yaml")));
 }
 
