@@ -126,7 +126,8 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
 
 void ChainSearch::observe(const FoundChain& found) {
   expectations_.observe(found.state.parts, found.likeness);
-  if (found.likeness >= kTellsLight * expectations_.usualLikeness()) observeLight(found.state);
+  const bool tells_light = found.likeness >= kTellsLight * expectations_.usualLikeness();
+  if (tells_light && model_.appearance.light_rate > 0.0) observeLight(found.state);
 }
 
 void ChainSearch::observeLight(const ChainState& state) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// How the light on an object has changed since the first frame: its brightness, its colour, the
 /// camera's exposure and white balance. All of them multiply the channels (von Kries 1902), the
-/// same for all parts, so that three numbers undo them and cannot drift onto the background.
+/// same for all parts, so that three numbers undo them: too few to learn the background by.
 #pragma once
 
 #include <array>

@@ -69,7 +69,8 @@ struct AppearanceModel {
   /// Slope of its cost from there on, of what it is before: how much what covers a part, or looks
   /// otherwise than it, still pulls it about. 1: as much as everything.
   double outlier_slope = 0.5;
-  /// Share of a change of light, of its brightness and its colour, that is followed within a frame.
+  /// Share of a change of light, of its brightness and its colour, that is followed within a frame;
+  /// 0: none.
   double light_rate = 0.3;
 };
 
