@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "chain_nodes.h"
 #include "rest_shape.h"
 #include "robust_costs.h"
 #include "segment_fit.h"
@@ -81,13 +82,6 @@ PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
           std::min(3, model.scale_hypotheses), fine_step(model.scale_hypotheses, model.scale_step)};
 }
 
-/// A part that the first frame shows half of counts half.
-void weigh(const std::vector<float>& shares, std::vector<cv::Mat1f>& costs) {
-  for (size_t k = 0; k < costs.size(); ++k) {
-    if (shares[k] < 1.0F) costs[k] *= shares[k];
-  }
-}
-
 std::vector<SegmentPose> interpolatedPoses(const std::vector<PoseGrid>& grids,
                                            const ChainMatch& match) {
   std::vector<SegmentPose> poses;
@@ -104,17 +98,13 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
                          const ChainState& initial)
     : model_(model),
       layout_(layout.segments),
-      appearance_(image, layout, model.appearance),
-      expectations_(appearance_, model.appearance, initial.parts.size()),
+      appearance_(model.appearance, image, layout, initial),
+      expectations_(appearance_.learned(), model.appearance, initial.parts.size()),
       overlaps_(initial.parts),
-      light_(model.appearance.light_rate),
       placement_search_(model.appearance, image.size()),
       coarse_(layout.segments.size()),
       fine_(layout.segments.size()),
-      middles_(layout.segments.size()),
-      pixels_(appearance_.palette()),
-      looks_(layout.segments.size()) {
-  for (const PartState& part : initial.parts) initial_orientations_.push_back(part.orientation);
+      middles_(layout.segments.size()) {
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentLayout& segment = layout_[m];
     remembered_turns_.push_back(rememberedTurns(segment.edges, model_.segments[m].shape_memory));
@@ -127,19 +117,7 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
 void ChainSearch::observe(const FoundChain& found) {
   expectations_.observe(found.state.parts, found.likeness);
   const bool tells_light = found.likeness >= kTellsLight * expectations_.usualLikeness();
-  if (tells_light && model_.appearance.light_rate > 0.0) observeLight(found.state);
-}
-
-void ChainSearch::observeLight(const ChainState& state) {
-  learned_colors_.clear();
-  seen_colors_.clear();
-  for (size_t k = 0; k < state.parts.size(); ++k) {
-    const PartState& part = state.parts[k];
-    if (!part.visible) continue;
-    learned_colors_.push_back(appearance_.part(k, turnOf(state, k)).middle);
-    seen_colors_.push_back(pixels_.objectColor(middleOfWindow(part.position, part.side)));
-  }
-  light_.observe(learned_colors_, seen_colors_);
+  if (tells_light) appearance_.observeLight(found.state);
 }
 
 FoundChain ChainSearch::find(const ChainState& sought, const SearchRange& range) {
@@ -186,9 +164,9 @@ std::vector<Similarity> ChainSearch::placements(const ChainState& sought, double
   std::vector<Hinge> hinges;
   for (size_t m = 0; m < segments(); ++m) {
     rigid.push_back({votersOf(sought, m), sideOf(m, poses[m].scale), poses[m]});
-    if (m > 0) hinges.push_back({jointPosition(sought, m - 1), jointOf(model_, m - 1)});
+    if (m > 0) hinges.push_back({jointPosition(layout_, sought, m - 1), jointOf(model_, m - 1)});
   }
-  return placement_search_.find(rigid, hinges, reach, pixels_);
+  return placement_search_.find(rigid, hinges, reach, appearance_.pixels());
 }
 
 /// Every so many parts, from end to end.
@@ -200,7 +178,7 @@ std::vector<Voter> ChainSearch::votersOf(const ChainState& state, size_t m) {
   std::vector<Voter> voters;
   for (size_t k = 0; k < parts; k += every) {
     const size_t part = first + k;
-    const PartAppearance& learned = appearance_.part(part, turnOf(state, part));
+    const PartAppearance& learned = appearance_.lookOf(state, part);
     voters.push_back({state.parts[part].position, learned.colors,
                       expectations_.colorOutlierCost(part, model_.appearance.outlier_below),
                       learned.known});
@@ -220,45 +198,13 @@ double ChainSearch::smallestSide(const std::vector<SegmentPose>& poses) const {
   return smallest;
 }
 
-/// Of the segment's joints and parts. Both segments at a joint say the same.
-std::vector<cv::Point2d> ChainSearch::nodePositions(const ChainState& state, size_t m) const {
-  const SegmentLayout& segment = layout_[m];
-  const SegmentState& segment_state = state.segments[m];
-  const auto first = state.parts.begin() + segment_state.first_part;
-  std::vector<cv::Point2d> positions;
-  positions.reserve(segment.edges.size() + 1);
-  if (segment.entry) positions.push_back(jointPosition(state, m - 1));
-  for (auto part = first; part != first + segment_state.part_count; ++part) {
-    positions.push_back(part->position);
-  }
-  if (segment.exit) positions.push_back(jointPosition(state, m));
-  return positions;
-}
-
-cv::Point2d ChainSearch::jointPosition(const ChainState& state, size_t m) const {
-  return 0.5 * (state.segments[m].image_from_segment.apply(*layout_[m].exit) +
-                state.segments[m + 1].image_from_segment.apply(*layout_[m + 1].entry));
-}
-
-/// Of the segment's joints and parts; a joint is seen where the part beside it is.
-std::vector<bool> ChainSearch::nodesHidden(const ChainState& state, size_t m) const {
-  const SegmentLayout& segment = layout_[m];
-  std::vector<bool> hidden;
-  for (size_t k = 0; k < segment.parts.size(); ++k) {
-    hidden.push_back(!state.parts[static_cast<size_t>(state.segments[m].first_part) + k].visible);
-  }
-  if (segment.entry) hidden.insert(hidden.begin(), hidden.front());
-  if (segment.exit) hidden.push_back(hidden.back());
-  return hidden;
-}
-
 /// What bends anywhere rests where it is sought, so that it may bend as far as it likes, but not at
 /// once.
 void ChainSearch::relaxSprings(const ChainState& state) {
   for (size_t m = 0; m < segments(); ++m) {
     if (layout_[m].layout != Layout::kDeformable) continue;
-    const std::vector<cv::Point2d> nodes = nodePositions(state, m);
-    const std::vector<bool> hidden = nodesHidden(state, m);
+    const std::vector<cv::Point2d> nodes = nodePositions(layout_, state, m);
+    const std::vector<bool> hidden = nodesHidden(layout_[m], state, m);
     const double orientation = state.segments[m].image_from_segment.angle;
     std::vector<EdgeLayout>& edges = layout_[m].edges;
     std::vector<double> directions;
@@ -278,10 +224,10 @@ void ChainSearch::relaxSprings(const ChainState& state) {
 /// Around where the nodes are believed to be.
 void ChainSearch::lookCoarsely() {
   NodePositions centers;
-  for (size_t m = 0; m < segments(); ++m) centers.push_back(nodePositions(sought_, m));
+  for (size_t m = 0; m < segments(); ++m) centers.push_back(nodePositions(layout_, sought_, m));
   const int step = coarseStep(smallestSide(previous_), range_.radius);
   const double radius = std::min(range_.radius, kWidestReach * step);
-  lookAround(centers, previous_, step, radius, Stage::kCoarse, coarse_);
+  lookAround(centers, previous_, step, radius, SearchStage::kCoarse, coarse_);
   robustify(coarse_);
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentModel& model = model_.segments[m];
@@ -304,14 +250,14 @@ void ChainSearch::lookFinely(const ChainMatch& coarse_match) {
   const int coarse_step = coarse_.segments.front().step;
   const int step = (coarse_step + kRefinedSteps - 1) / kRefinedSteps;
   const int reach = std::max(kLeastReach, coarse_step + step);
-  lookAround(centers, poses, step, reach, Stage::kFine, fine_);
+  lookAround(centers, poses, step, reach, SearchStage::kFine, fine_);
   for (size_t m = 0; m < segments(); ++m) {
     fine_.poses[m] = finePoses(model_.segments[m], poses[m]);
   }
 }
 
 void ChainSearch::lookAround(const NodePositions& centers, const std::vector<SegmentPose>& poses,
-                             int step, double radius, Stage stage, Candidates& candidates) {
+                             int step, double radius, SearchStage stage, Candidates& candidates) {
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentLayout& segment = layout_[m];
     const auto first = centers[m].begin() + (segment.entry ? 1 : 0);
@@ -321,58 +267,16 @@ void ChainSearch::lookAround(const NodePositions& centers, const std::vector<Seg
     if (m > 0) {
       candidates.segments[m].origins.front() = candidates.segments[m - 1].origins.back();
     }
-    computeCosts(m, wrapAngle(poses[m].orientation - previous_[m].orientation), stage, candidates);
+    const double turn = wrapAngle(poses[m].orientation - previous_[m].orientation);
+    appearance_.compute(sought_, m, turn, candidates.grids[m], stage, candidates.costs[m]);
     joinCosts(m, candidates);
   }
-}
-
-/// `turn`: of the segment from where it is sought [rad].
-const ChainSearch::Looks& ChainSearch::looksOf(size_t m, double turn) {
-  const size_t parts = layout_[m].parts.size();
-  const auto first_part = static_cast<size_t>(sought_.segments[m].first_part);
-  Looks& looks = looks_[m];
-  looks.colors.resize(parts);
-  looks.edges.resize(parts);
-  looks.textures.resize(parts);
-  looks.known.resize(parts);
-  for (size_t k = 0; k < parts; ++k) {
-    const size_t part = first_part + k;
-    const PartAppearance& learned = appearance_.part(part, wrapAngle(turnOf(sought_, part) + turn));
-    looks.colors[k] = learned.colors;
-    looks.edges[k] = learned.edges;
-    looks.textures[k] = learned.texture;
-    looks.known[k] = learned.known;
-  }
-  return looks;
-}
-
-void ChainSearch::computeCosts(size_t m, double turn, Stage stage, Candidates& candidates) {
-  const Looks& looks = looksOf(m, turn);
-  const CandidateGrid& grid = candidates.grids[m];
-  std::vector<cv::Mat1f>& costs = candidates.part_costs[m];
-  const AppearanceModel& model = model_.appearance;
-  computePartCosts(pixels_, Channel::kColors, looks.colors, grid, model.weight, costs,
-                   color_workspace_);
-  if (stage == Stage::kFine && model.haar_weight > 0.0) {
-    addTextureCosts(pixels_, looks.textures, grid, model.haar_weight, costs, texture_workspace_);
-  }
-  weigh(looks.known, costs);
-  if (stage == Stage::kCoarse && model.edge_weight > 0.0) addEdgeCosts(m, looks, candidates);
-}
-
-void ChainSearch::addEdgeCosts(size_t m, const Looks& looks, Candidates& candidates) {
-  std::vector<cv::Mat1f>& edge_costs = candidates.edge_costs[m];
-  computePartCosts(pixels_, Channel::kEdges, looks.edges, candidates.grids[m],
-                   model_.appearance.edge_weight, edge_costs, edge_workspace_);
-  weigh(looks.known, edge_costs);
-  std::vector<cv::Mat1f>& costs = candidates.part_costs[m];
-  for (size_t k = 0; k < edge_costs.size(); ++k) cv::add(costs[k], edge_costs[k], costs[k]);
 }
 
 /// Of the parts and of the joints at the segment's ends.
 void ChainSearch::joinCosts(size_t m, Candidates& candidates) const {
   const SegmentLayout& segment = layout_[m];
-  const std::vector<cv::Mat1f>& parts = candidates.part_costs[m];
+  const std::vector<cv::Mat1f>& parts = candidates.costs[m].parts;
   std::vector<cv::Mat1f>& costs = candidates.segments[m].costs;
   candidates.joint_costs.create(candidates.grids[m].states);
   candidates.joint_costs.setTo(0.0F);
@@ -387,7 +291,7 @@ void ChainSearch::keepEdgeCosts(const ChainMatch& coarse_match) {
   edge_costs_.clear();
   for (size_t m = 0; m < segments(); ++m) {
     const size_t joint = layout_[m].entry ? 1 : 0;
-    const std::vector<cv::Mat1f>& costs = coarse_.edge_costs[m];
+    const std::vector<cv::Mat1f>& costs = coarse_.costs[m].edges;
     for (size_t k = 0; k < layout_[m].parts.size(); ++k) {
       const cv::Point& state = coarse_match.segments[m].states[joint + k];
       edge_costs_.push_back(costs.empty() ? 0.0 : costs[k](state));
@@ -412,11 +316,6 @@ void ChainSearch::robustify(Candidates& candidates) const {
       }
     }
   }
-}
-
-/// Of a part since the first frame [rad].
-double ChainSearch::turnOf(const ChainState& state, size_t part) const {
-  return wrapAngle(state.parts[part].orientation - initial_orientations_[part]);
 }
 
 ChainMatch ChainSearch::matched(const std::vector<PoseGrid>& poses,

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Where a state has the nodes of a segment's chain: its parts, and the joints at its ends.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "chain_tracker/chain/chain_layout.h"
+#include "chain_tracker/chain/chain_state.h"
+
+namespace chain_tracker {
+
+/// Of the joint of segments `m` and `m + 1` [px]: halfway between where the two have it.
+cv::Point2d jointPosition(const std::vector<SegmentLayout>& layout, const ChainState& state,
+                          size_t m);
+
+/// Of segment `m`, from end to end [px]. Both segments at a joint say the same.
+std::vector<cv::Point2d> nodePositions(const std::vector<SegmentLayout>& layout,
+                                       const ChainState& state, size_t m);
+
+/// The same nodes: whether they are hidden. A joint is as the part beside it.
+std::vector<bool> nodesHidden(const SegmentLayout& segment, const ChainState& state, size_t m);
+
+}  // namespace chain_tracker
