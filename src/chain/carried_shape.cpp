@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <opencv2/imgproc.hpp>
+#include "chain_tracker/image/convex_hull.h"
 
 namespace chain_tracker {
 namespace {
@@ -55,20 +55,20 @@ bool isUprightBox(const std::vector<cv::Point2d>& points, double orientation) {
 
 }  // namespace
 
-std::vector<cv::Point2d> hullOf(const std::vector<cv::Point2d>& points) {
-  const std::vector<cv::Point2f> corners(points.begin(), points.end());
-  std::vector<cv::Point2f> hull;
-  cv::convexHull(corners, hull);
-  return {hull.begin(), hull.end()};
-}
-
 CarriedShape::CarriedShape(const SegmentLayout& segment)
-    : deformable_(segment.layout == Layout::kDeformable),
-      initial_orientation_(segment.image_from_segment.angle),
-      corners_(segment.corners) {
-  if (segment.layout == Layout::kPoints) corners_ = hullOf(segment.points);
+    : deformable_(segment.layout == Layout::kDeformable), corners_(segment.corners) {
+  if (segment.layout == Layout::kPoints) {
+    corners_ = segment.points;
+    ConvexHull().replace(corners_);
+  }
+  const double orientation = segment.image_from_segment.angle;
   box_turns_ = deformable_ || segment.layout == Layout::kPoints ||
-               !isUprightBox(segment.points, initial_orientation_);
+               !isUprightBox(segment.points, orientation);
+  std::vector<cv::Point2d> unturned;
+  for (const cv::Point2d& corner : corners_) {
+    unturned.push_back(Similarity{orientation, 1.0, {}}.apply(corner));
+  }
+  if (!unturned.empty()) unturned_ = uprightBounds(unturned);
   for (const cv::Point2d& point : segment.points) {
     if (!deformable_) {
       anchors_.push_back({point, nearestPart(segment.parts, point)});
@@ -80,57 +80,52 @@ CarriedShape::CarriedShape(const SegmentLayout& segment)
   }
 }
 
-std::vector<CarriedPoint> CarriedShape::points(const SegmentState& segment,
-                                               const std::vector<PartState>& parts) const {
-  std::vector<CarriedPoint> points;
-  points.reserve(anchors_.size());
-  for (const Anchor& anchor : anchors_) {
-    if (!deformable_) {
-      const PartState& part = parts[anchor.part];
-      points.push_back(
-          {segment.image_from_segment.apply(anchor.point), part.confidence, part.visible});
-      continue;
-    }
-    const PartState& a = parts[anchor.part];
-    const PartState& b = parts[anchor.part + 1];
-    points.push_back({frameOfEdge(a.position, b.position).apply(anchor.point),
-                      0.5 * (a.confidence + b.confidence), a.visible && b.visible});
-  }
-  return points;
+/// Of a deformable segment.
+cv::Point2d CarriedShape::carried(const Anchor& anchor, const SegmentParts& parts) {
+  return frameOfEdge(parts[anchor.part].position, parts[anchor.part + 1].position)
+      .apply(anchor.point);
 }
 
-std::vector<cv::Point2d> CarriedShape::outline(const SegmentState& segment,
-                                               const std::vector<PartState>& parts) const {
-  std::vector<cv::Point2d> outline;
-  if (deformable_) {
-    for (const CarriedPoint& point : points(segment, parts)) outline.push_back(point.position);
-    for (const PartState& part : parts) outline.push_back(part.position);
-    return hullOf(outline);
+void CarriedShape::addPoints(const SegmentState& segment, const SegmentParts& parts,
+                             std::vector<CarriedPoint>& points) const {
+  for (const Anchor& anchor : anchors_) {
+    const PartState& a = parts[anchor.part];
+    if (!deformable_) {
+      points.push_back({segment.image_from_segment.apply(anchor.point), a.confidence, a.visible});
+      continue;
+    }
+    const PartState& b = parts[anchor.part + 1];
+    points.push_back(
+        {carried(anchor, parts), 0.5 * (a.confidence + b.confidence), a.visible && b.visible});
   }
-  for (const cv::Point2d& corner : corners_) {
-    outline.push_back(segment.image_from_segment.apply(corner));
+}
+
+void CarriedShape::addOutline(const SegmentState& segment, const SegmentParts& parts,
+                              std::vector<cv::Point2d>& outline) const {
+  if (!deformable_) {
+    for (const cv::Point2d& corner : corners_) {
+      outline.push_back(segment.image_from_segment.apply(corner));
+    }
+    return;
   }
-  return outline;
+  for (const Anchor& anchor : anchors_) outline.push_back(carried(anchor, parts));
+  for (const PartState& part : parts) outline.push_back(part.position);
 }
 
 cv::Rect2d CarriedShape::box(const SegmentState& segment,
-                             const std::vector<PartState>& parts) const {
-  if (box_turns_) return uprightBounds(outline(segment, parts));
-  SegmentState unturned = segment;
-  unturned.image_from_segment.angle = initial_orientation_;
-  return uprightBounds(outline(unturned, parts));
+                             const std::vector<cv::Point2d>& outline) const {
+  if (box_turns_) return uprightBounds(outline);
+  const Similarity& pose = segment.image_from_segment;
+  return {pose.scale * unturned_.tl() + pose.translation,
+          pose.scale * unturned_.br() + pose.translation};
 }
 
-std::vector<double> partOrientations(const SegmentLayout& layout, const SegmentState& segment,
-                                     const std::vector<PartState>& parts) {
-  std::vector<double> orientations(parts.size(), segment.image_from_segment.angle);
-  if (layout.layout != Layout::kDeformable) return orientations;
-  for (size_t k = 0; k < parts.size(); ++k) {
-    const size_t before = k > 0 ? k - 1 : 0;
-    const size_t after = std::min(k + 1, parts.size() - 1);
-    orientations[k] = directionOf(parts[after].position - parts[before].position);
-  }
-  return orientations;
+double partOrientation(const SegmentLayout& layout, const SegmentState& segment,
+                       const SegmentParts& parts, size_t k) {
+  if (layout.layout != Layout::kDeformable) return segment.image_from_segment.angle;
+  const size_t before = k > 0 ? k - 1 : 0;
+  const size_t after = std::min(k + 1, parts.size() - 1);
+  return directionOf(parts[after].position - parts[before].position);
 }
 
 }  // namespace chain_tracker

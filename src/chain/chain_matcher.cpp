@@ -38,17 +38,23 @@ class Matcher {
     for (PoseMaps* maps : {&workspace.ahead, &workspace.behind, &workspace.into, &workspace.from}) {
       maps->resize(segments());
     }
+    workspace.solvers.resize(segments());
+    workspace.match.segments.resize(segments());
     for (size_t m = 0; m < segments(); ++m) {
       workspace.ahead[m].resize(poses(m));
       workspace.behind[m].resize(poses(m));
     }
   }
 
-  ChainMatch match() {
+  const ChainMatch& match() {
     sweepForward();
     sweepBackward();
-    ChainMatch match;
-    for (size_t m = 0; m < segments(); ++m) match.segments.push_back({0, energiesOf(m), {}});
+    ChainMatch& match = workspace_.match;
+    for (size_t m = 0; m < segments(); ++m) {
+      match.segments[m].pose = 0;
+      match.segments[m].states.clear();
+      computeEnergies(m, match.segments[m].energies);
+    }
     cv::minMaxIdx(match.segments.back().energies, &match.energy);
     if (std::isfinite(match.energy)) traceChain(match);
     return match;
@@ -56,6 +62,7 @@ class Matcher {
 
  private:
   size_t segments() const { return problem_.segments.size(); }
+  ChainSolverWorkspace& solver(size_t m) { return workspace_.solvers[m]; }
   size_t poses(size_t m) const { return problem_.poses[m].size(); }
   SegmentPose pose(size_t m, size_t h) const { return problem_.poses[m].at(h); }
 
@@ -84,7 +91,7 @@ class Matcher {
       if (m > 0) mergeForward(m);
       for (size_t h = 0; h < poses(m); ++h) {
         passForward(m, h);
-        raise(workspace_.solver.forward.back(), temporal(m, h), workspace_.ahead[m][h]);
+        raise(solver(m).forward.back(), temporal(m, h), workspace_.ahead[m][h]);
         if (m + 1 == segments()) keepIfBest(h, leastOf(workspace_.ahead[m][h]));
       }
     }
@@ -96,14 +103,14 @@ class Matcher {
     best_pose_ = pose;
     best_energy_ = energy;
     std::swap(workspace_.edges, workspace_.best_edges);
-    std::swap(workspace_.solver.forward, workspace_.best_forward);
+    std::swap(workspace_.solvers.back().forward, workspace_.best_forward);
   }
 
   /// The first node of the segment takes what the segments before say.
   void passForward(size_t m, size_t h) {
     workspace_.costs = problem_.candidates[m].costs;
     if (m > 0) workspace_.costs.front() = messageTo(h, workspace_.into[m]);
-    forwardPass(workspace_.costs, sampleEdges(m, h), workspace_.solver);
+    forwardPass(workspace_.costs, sampleEdges(m, h), solver(m));
   }
 
   /// The same from the other end.
@@ -112,7 +119,7 @@ class Matcher {
     std::reverse(workspace_.costs.begin(), workspace_.costs.end());
     if (m + 1 < segments()) workspace_.costs.front() = messageTo(h, workspace_.from[m]);
     workspace_.backward_edges.assignReversed(sampleEdges(m, h));
-    forwardPass(workspace_.costs, workspace_.backward_edges, workspace_.solver);
+    forwardPass(workspace_.costs, workspace_.backward_edges, solver(m));
   }
 
   /// The message to each pose of segment m from the one before: the least over that one's poses.
@@ -150,17 +157,17 @@ class Matcher {
     for (size_t m = segments() - 1; m > 0; --m) {
       for (size_t h = 0; h < poses(m); ++h) {
         passBackward(m, h);
-        raise(workspace_.solver.forward.back(), temporal(m, h), workspace_.behind[m][h]);
+        raise(solver(m).forward.back(), temporal(m, h), workspace_.behind[m][h]);
       }
       mergeBackward(m - 1);
     }
   }
 
-  cv::Mat1d energiesOf(size_t m) {
+  void computeEnergies(size_t m, cv::Mat1d& energies) {
     const PoseGrid& grid = problem_.poses[m];
-    cv::Mat1d energies(grid.orientations, grid.scales, std::numeric_limits<double>::infinity());
+    energies.create(grid.orientations, grid.scales);
+    energies.setTo(std::numeric_limits<double>::infinity());
     for (size_t h = 0; h < poses(m); ++h) energies(grid.cellOf(h)) = energyOf(m, h);
-    return energies;
   }
 
   double energyOf(size_t m, size_t h) {
@@ -171,18 +178,17 @@ class Matcher {
 
   /// From the last segment to the first: the pose that leads to where the next one begins.
   void traceChain(ChainMatch& match) {
-    ChainSolverWorkspace& solver = workspace_.solver;
     const size_t last = segments() - 1;
     match.segments[last].pose = best_pose_;
-    std::swap(solver.forward, workspace_.best_forward);
-    match.segments[last].states =
-        traceBack(workspace_.best_edges, cheapestState(solver.forward.back()), solver);
+    std::swap(solver(last).forward, workspace_.best_forward);
+    traceBack(workspace_.best_edges, cheapestState(solver(last).forward.back()), solver(last),
+              match.segments[last].states);
     for (size_t m = last; m-- > 0;) {
       SegmentMatch& segment = match.segments[m];
       const SegmentMatch& next = match.segments[m + 1];
       segment.pose = bestInto(m, next);
       passForward(m, segment.pose);
-      segment.states = traceBack(workspace_.edges, next.states.front(), solver);
+      traceBack(workspace_.edges, next.states.front(), solver(m), segment.states);
     }
   }
 
@@ -207,7 +213,7 @@ class Matcher {
 
 }  // namespace
 
-ChainMatch matchChain(const MatchingProblem& problem, ChainMatcherWorkspace& workspace) {
+const ChainMatch& matchChain(const MatchingProblem& problem, ChainMatcherWorkspace& workspace) {
   return Matcher(problem, workspace).match();
 }
 

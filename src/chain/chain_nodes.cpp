@@ -9,29 +9,22 @@ cv::Point2d jointPosition(const std::vector<SegmentLayout>& layout, const ChainS
                 state.segments[m + 1].image_from_segment.apply(*layout[m + 1].entry));
 }
 
-std::vector<cv::Point2d> nodePositions(const std::vector<SegmentLayout>& layout,
-                                       const ChainState& state, size_t m) {
-  const SegmentState& segment = state.segments[m];
-  const auto first = state.parts.begin() + segment.first_part;
-  std::vector<cv::Point2d> positions;
-  positions.reserve(layout[m].edges.size() + 1);
+void takeNodePositions(const std::vector<SegmentLayout>& layout, const ChainState& state, size_t m,
+                       std::vector<cv::Point2d>& positions) {
+  positions.clear();
   if (layout[m].entry) positions.push_back(jointPosition(layout, state, m - 1));
-  for (auto part = first; part != first + segment.part_count; ++part) {
-    positions.push_back(part->position);
+  for (const PartState& part : SegmentParts(state, state.segments[m])) {
+    positions.push_back(part.position);
   }
   if (layout[m].exit) positions.push_back(jointPosition(layout, state, m));
-  return positions;
 }
 
-std::vector<bool> nodesHidden(const SegmentLayout& segment, const ChainState& state, size_t m) {
-  const auto first = state.parts.begin() + state.segments[m].first_part;
-  std::vector<bool> hidden;
-  for (auto part = first; part != first + state.segments[m].part_count; ++part) {
-    hidden.push_back(!part->visible);
-  }
-  if (segment.entry) hidden.insert(hidden.begin(), hidden.front());
+void takeNodesHidden(const SegmentLayout& segment, const SegmentParts& parts,
+                     std::vector<bool>& hidden) {
+  hidden.clear();
+  if (segment.entry) hidden.push_back(!parts[0].visible);
+  for (const PartState& part : parts) hidden.push_back(!part.visible);
   if (segment.exit) hidden.push_back(hidden.back());
-  return hidden;
 }
 
 }  // namespace chain_tracker

@@ -16,11 +16,13 @@ namespace chain_tracker {
 cv::Point2d jointPosition(const std::vector<SegmentLayout>& layout, const ChainState& state,
                           size_t m);
 
-/// Of segment `m`, from end to end [px]. Both segments at a joint say the same.
-std::vector<cv::Point2d> nodePositions(const std::vector<SegmentLayout>& layout,
-                                       const ChainState& state, size_t m);
+/// `positions` become those of segment `m` [px], from end to end. Both segments at a joint say the
+/// same.
+void takeNodePositions(const std::vector<SegmentLayout>& layout, const ChainState& state, size_t m,
+                       std::vector<cv::Point2d>& positions);
 
-/// The same nodes: whether they are hidden. A joint is as the part beside it.
-std::vector<bool> nodesHidden(const SegmentLayout& segment, const ChainState& state, size_t m);
+/// The same of whether they are hidden. A joint is as the part beside it.
+void takeNodesHidden(const SegmentLayout& segment, const SegmentParts& parts,
+                     std::vector<bool>& hidden);
 
 }  // namespace chain_tracker

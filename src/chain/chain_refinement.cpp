@@ -106,19 +106,19 @@ void join(const std::vector<SegmentLayout>& segments, const std::vector<SegmentP
 
 }  // namespace
 
-std::vector<RefinedPart> refineChain(const std::vector<SegmentLayout>& segments,
-                                     const std::vector<SegmentPose>& poses,
-                                     const std::vector<SegmentCandidates>& candidates,
-                                     ChainRefinementWorkspace& workspace) {
+const std::vector<RefinedPart>& refineChain(const std::vector<SegmentLayout>& segments,
+                                            const std::vector<SegmentPose>& poses,
+                                            const std::vector<SegmentCandidates>& candidates,
+                                            ChainRefinementWorkspace& workspace) {
   ChainSolverWorkspace& solver = workspace.solver;
-  join(segments, poses, candidates, workspace);
-  if (!std::isfinite(forwardPass(workspace.costs, workspace.edges, solver))) return {};
-  const cv::Point end = cheapestState(solver.forward.back());
-  const std::vector<cv::Point> states = traceBack(workspace.edges, end, solver);
   const std::vector<cv::Mat1f>& marginals = workspace.marginals;
+  const std::vector<cv::Point>& states = workspace.states;
+  std::vector<RefinedPart>& parts = workspace.parts;
+  parts.clear();
+  join(segments, poses, candidates, workspace);
+  if (!std::isfinite(forwardPass(workspace.costs, workspace.edges, solver))) return parts;
+  traceBack(workspace.edges, cheapestState(solver.forward.back()), solver, workspace.states);
   minMarginals(workspace.costs, workspace.edges, workspace.marginals, solver);
-  std::vector<RefinedPart> parts;
-  parts.reserve(workspace.costs.size());
   std::size_t first = 0;  // node of the joined chain at which the segment begins
   for (std::size_t m = 0; m < segments.size(); ++m) {
     const std::size_t joint = segments[m].entry ? 1 : 0;

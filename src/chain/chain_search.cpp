@@ -6,9 +6,7 @@
 #include <utility>
 
 #include "chain_nodes.h"
-#include "rest_shape.h"
 #include "robust_costs.h"
-#include "segment_fit.h"
 #include "state_motion.h"
 #include "stopwatch.h"
 
@@ -46,22 +44,11 @@ constexpr size_t kFewestVoters = 4;
 /// what is trusted otherwise, as in another light all looks less as learned.
 constexpr double kTellsLight = 0.6;
 
-/// Of each edge from the one before in the first frame, as far as the shape is remembered.
-std::vector<double> rememberedTurns(const std::vector<EdgeLayout>& edges, double shape_memory) {
-  std::vector<double> turns(edges.size(), 0.0);
-  for (size_t k = 1; k < edges.size(); ++k) {
-    turns[k] = shape_memory * wrapAngle(edges[k].direction - edges[k - 1].direction);
-  }
-  return turns;
-}
-
-std::vector<SegmentPose> posesOf(const ChainState& state) {
-  std::vector<SegmentPose> poses;
-  poses.reserve(state.segments.size());
+void takePoses(const ChainState& state, std::vector<SegmentPose>& poses) {
+  poses.clear();
   for (const SegmentState& segment : state.segments) {
     poses.push_back({segment.image_from_segment.angle, segment.image_from_segment.scale});
   }
-  return poses;
 }
 
 /// An eighth of a window, or coarser where a wide search would have too many candidates.
@@ -82,14 +69,12 @@ PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
           std::min(3, model.scale_hypotheses), fine_step(model.scale_hypotheses, model.scale_step)};
 }
 
-std::vector<SegmentPose> interpolatedPoses(const std::vector<PoseGrid>& grids,
-                                           const ChainMatch& match) {
-  std::vector<SegmentPose> poses;
-  poses.reserve(grids.size());
+void interpolatePoses(const std::vector<PoseGrid>& grids, const ChainMatch& match,
+                      std::vector<SegmentPose>& poses) {
+  poses.clear();
   for (size_t m = 0; m < grids.size(); ++m) {
     poses.push_back(interpolatePose(grids[m], match.segments[m].energies));
   }
-  return poses;
 }
 
 }  // namespace
@@ -101,13 +86,13 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       appearance_(model.appearance, image, layout, initial),
       expectations_(appearance_.learned(), model.appearance, initial.parts.size()),
       overlaps_(initial.parts),
+      springs_(model, layout.segments),
       placement_search_(model.appearance, image.size()),
       coarse_(layout.segments.size()),
       fine_(layout.segments.size()),
-      middles_(layout.segments.size()) {
-  for (size_t m = 0; m < segments(); ++m) {
-    const SegmentLayout& segment = layout_[m];
-    remembered_turns_.push_back(rememberedTurns(segment.edges, model_.segments[m].shape_memory));
+      middles_(layout.segments.size()),
+      centers_(layout.segments.size()) {
+  for (const SegmentLayout& segment : layout_) {
     const bool is_grid = segment.layout == Layout::kElongated || segment.layout == Layout::kPlanar;
     variance_shares_.insert(variance_shares_.end(), segment.parts.size(),
                             is_grid ? kCellVariance : 1.0);
@@ -120,46 +105,45 @@ void ChainSearch::observe(const FoundChain& found) {
   if (tells_light) appearance_.observeLight(found.state);
 }
 
-FoundChain ChainSearch::find(const ChainState& sought, const SearchRange& range) {
+void ChainSearch::find(const ChainState& sought, const SearchRange& range, FoundChain& found) {
   Stopwatch watch;
   sought_ = sought;
-  previous_ = posesOf(sought);
+  takePoses(sought, previous_);
   range_ = range;
-  relaxSprings(sought);
-  FoundChain found{sought};
-  found.state.confidence = 0.0;
-  found.state.times = StepTimes();
-  StepTimes& times = found.state.times;
+  springs_.relax(sought, range.looseness, layout_);
+  found.state = sought;
+  found.state.confidence = found.likeness = 0.0;
+  StepTimes& times = found.state.times = StepTimes();
   lookCoarsely();
   times.part_costs = watch.lap();
-  const ChainMatch match = matched(coarse_.poses, coarse_.segments, coarse_workspace_);
+  const ChainMatch& match = matched(coarse_.poses, coarse_.segments, coarse_workspace_);
   times.matching = watch.lap();
-  if (!match.found()) return found;
+  if (!match.found()) return;
   keepEdgeCosts(match);
   lookFinely(match);
-  const ChainMatch finest = matchFinePoses();
+  const ChainMatch& finest = matchFinePoses();
   if (finest.found()) {
-    settle(interpolatedPoses(fine_.poses, finest), found);
+    interpolatePoses(fine_.poses, finest, poses_);
+    settle(found);
     found.state.energy = finest.energy;
   }
   times.refinement = watch.lap();
-  return found;
 }
 
-FoundChain ChainSearch::findAnywhere(const ChainState& sought, double reach,
-                                     const SearchRange& range) {
+void ChainSearch::findAnywhere(const ChainState& sought, double reach, const SearchRange& range,
+                               FoundChain& found) {
   Stopwatch watch;
   ChainState placed = sought;
   const std::vector<Similarity> motions = placements(sought, reach);
   for (size_t m = 0; m < segments(); ++m) moveSegment(motions[m], m, placed);
   const double placing = watch.lap();
-  FoundChain found = find(placed, range);
+  find(placed, range, found);
   found.state.times.part_costs += placing;
-  return found;
 }
 
 std::vector<Similarity> ChainSearch::placements(const ChainState& sought, double reach) {
-  const std::vector<SegmentPose> poses = posesOf(sought);
+  std::vector<SegmentPose> poses;
+  takePoses(sought, poses);
   std::vector<RigidSegment> rigid;
   std::vector<Hinge> hinges;
   for (size_t m = 0; m < segments(); ++m) {
@@ -198,36 +182,12 @@ double ChainSearch::smallestSide(const std::vector<SegmentPose>& poses) const {
   return smallest;
 }
 
-/// What bends anywhere rests where it is sought, so that it may bend as far as it likes, but not at
-/// once.
-void ChainSearch::relaxSprings(const ChainState& state) {
-  for (size_t m = 0; m < segments(); ++m) {
-    if (layout_[m].layout != Layout::kDeformable) continue;
-    const std::vector<cv::Point2d> nodes = nodePositions(layout_, state, m);
-    const std::vector<bool> hidden = nodesHidden(layout_[m], state, m);
-    const double orientation = state.segments[m].image_from_segment.angle;
-    std::vector<EdgeLayout>& edges = layout_[m].edges;
-    std::vector<double> directions;
-    std::vector<bool> edges_hidden;
-    for (size_t k = 0; k < edges.size(); ++k) {
-      directions.push_back(wrapAngle(directionOf(nodes[k + 1] - nodes[k]) - orientation));
-      edges_hidden.push_back(hidden[k] || hidden[k + 1]);
-    }
-    directions = restDirections(directions, edges_hidden, remembered_turns_[m]);
-    for (size_t k = 0; k < edges.size(); ++k) {
-      edges[k].direction = directions[k];
-      edges[k].bend_sigma = range_.looseness * model_.segments[m].bend_sigma;
-    }
-  }
-}
-
 /// Around where the nodes are believed to be.
 void ChainSearch::lookCoarsely() {
-  NodePositions centers;
-  for (size_t m = 0; m < segments(); ++m) centers.push_back(nodePositions(layout_, sought_, m));
+  for (size_t m = 0; m < segments(); ++m) takeNodePositions(layout_, sought_, m, centers_[m]);
   const int step = coarseStep(smallestSide(previous_), range_.radius);
   const double radius = std::min(range_.radius, kWidestReach * step);
-  lookAround(centers, previous_, step, radius, SearchStage::kCoarse, coarse_);
+  lookAround(previous_, step, radius, SearchStage::kCoarse, coarse_);
   robustify(coarse_);
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentModel& model = model_.segments[m];
@@ -238,32 +198,32 @@ void ChainSearch::lookCoarsely() {
 
 /// Up to a coarse step around the coarse match.
 void ChainSearch::lookFinely(const ChainMatch& coarse_match) {
-  const std::vector<SegmentPose> poses = interpolatedPoses(coarse_.poses, coarse_match);
-  NodePositions centers(segments());
+  interpolatePoses(coarse_.poses, coarse_match, poses_);
   for (size_t m = 0; m < segments(); ++m) {
     const std::vector<cv::Point>& states = coarse_match.segments[m].states;
-    centers[m].reserve(states.size());
+    centers_[m].clear();
     for (size_t k = 0; k < states.size(); ++k) {
-      centers[m].push_back(coarse_.segments[m].positionOf(k, cv::Point2d(states[k])));
+      centers_[m].push_back(coarse_.segments[m].positionOf(k, cv::Point2d(states[k])));
     }
   }
   const int coarse_step = coarse_.segments.front().step;
   const int step = (coarse_step + kRefinedSteps - 1) / kRefinedSteps;
   const int reach = std::max(kLeastReach, coarse_step + step);
-  lookAround(centers, poses, step, reach, SearchStage::kFine, fine_);
+  lookAround(poses_, step, reach, SearchStage::kFine, fine_);
   for (size_t m = 0; m < segments(); ++m) {
-    fine_.poses[m] = finePoses(model_.segments[m], poses[m]);
+    fine_.poses[m] = finePoses(model_.segments[m], poses_[m]);
   }
 }
 
-void ChainSearch::lookAround(const NodePositions& centers, const std::vector<SegmentPose>& poses,
-                             int step, double radius, SearchStage stage, Candidates& candidates) {
+/// Around the centres.
+void ChainSearch::lookAround(const std::vector<SegmentPose>& poses, int step, double radius,
+                             SearchStage stage, Candidates& candidates) {
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentLayout& segment = layout_[m];
-    const auto first = centers[m].begin() + (segment.entry ? 1 : 0);
-    const std::vector<cv::Point2d> parts(first, first + static_cast<int>(segment.parts.size()));
-    candidates.grids[m] = makeCandidateGrid(parts, sideOf(m, poses[m].scale), step, radius);
-    placeCandidates(segment, candidates.grids[m], centers[m].back(), candidates.segments[m]);
+    const auto first = centers_[m].begin() + (segment.entry ? 1 : 0);
+    part_centers_.assign(first, first + static_cast<int>(segment.parts.size()));
+    placeCandidateGrid(part_centers_, sideOf(m, poses[m].scale), step, radius, candidates.grids[m]);
+    placeCandidates(segment, candidates.grids[m], centers_[m].back(), candidates.segments[m]);
     if (m > 0) {
       candidates.segments[m].origins.front() = candidates.segments[m - 1].origins.back();
     }
@@ -278,8 +238,8 @@ void ChainSearch::joinCosts(size_t m, Candidates& candidates) const {
   const SegmentLayout& segment = layout_[m];
   const std::vector<cv::Mat1f>& parts = candidates.costs[m].parts;
   std::vector<cv::Mat1f>& costs = candidates.segments[m].costs;
-  candidates.joint_costs.create(candidates.grids[m].states);
-  candidates.joint_costs.setTo(0.0F);
+  const cv::Size& states = candidates.grids[m].states;
+  if (candidates.joint_costs.size() != states) candidates.joint_costs = cv::Mat1f::zeros(states);
   costs.clear();
   if (segment.entry) costs.push_back(candidates.joint_costs);
   costs.insert(costs.end(), parts.begin(), parts.end());
@@ -318,13 +278,13 @@ void ChainSearch::robustify(Candidates& candidates) const {
   }
 }
 
-ChainMatch ChainSearch::matched(const std::vector<PoseGrid>& poses,
-                                const std::vector<SegmentCandidates>& candidates,
-                                ChainMatcherWorkspace& workspace) const {
+const ChainMatch& ChainSearch::matched(const std::vector<PoseGrid>& poses,
+                                       const std::vector<SegmentCandidates>& candidates,
+                                       ChainMatcherWorkspace& workspace) const {
   return matchChain({layout_, model_, previous_, poses, candidates}, workspace);
 }
 
-ChainMatch ChainSearch::matchFinePoses() {
+const ChainMatch& ChainSearch::matchFinePoses() {
   for (size_t m = 0; m < segments(); ++m) {
     takeMiddleStates(fine_.segments[m], kPoseStates, middles_[m]);
   }
@@ -333,26 +293,27 @@ ChainMatch ChainSearch::matchFinePoses() {
 
 /// The parts tell the poses more exactly than the energies of a few poses do, but their springs
 /// hold them near the poses these were laid for: so they are laid once more.
-void ChainSearch::settle(std::vector<SegmentPose> poses, FoundChain& found) {
+void ChainSearch::settle(FoundChain& found) {
   for (int i = 0; i < kFits; ++i) {
-    const std::vector<RefinedPart> parts =
-        refineChain(layout_, poses, fine_.segments, fine_workspace_);
+    const std::vector<RefinedPart>& parts =
+        refineChain(layout_, poses_, fine_.segments, fine_workspace_);
     if (parts.empty()) return;
-    fillIn(parts, poses, found.state);
+    fillIn(parts, found.state);
     found.likeness = likeness(parts, found.state.parts);
-    poses = posesOf(found.state);
+    takePoses(found.state, poses_);
   }
 }
 
 double ChainSearch::likeness(const std::vector<RefinedPart>& refined,
-                             const std::vector<PartState>& parts) const {
-  std::vector<double> costs = edge_costs_;
-  for (size_t k = 0; k < refined.size(); ++k) costs[k] += refined[k].appearance;
-  return expectations_.likeness(costs, overlaps_.shares(parts));
+                             const std::vector<PartState>& parts) {
+  costs_ = edge_costs_;
+  for (size_t k = 0; k < refined.size(); ++k) costs_[k] += refined[k].appearance;
+  overlaps_.computeShares(parts, shares_);
+  return expectations_.likeness(costs_, shares_);
 }
 
-void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,
-                         const std::vector<SegmentPose>& poses, ChainState& found) const {
+/// The parts were found under `poses_`.
+void ChainSearch::fillIn(const std::vector<RefinedPart>& parts, ChainState& found) {
   for (size_t k = 0; k < parts.size(); ++k) {
     PartState& part = found.parts[k];
     part.position = parts[k].position;
@@ -364,9 +325,8 @@ void ChainSearch::fillIn(const std::vector<RefinedPart>& parts,
   found.confidence = expectations_.meanConfidence(found.parts, 0, parts.size());
   for (size_t m = 0; m < segments(); ++m) {
     SegmentState& segment = found.segments[m];
-    const auto first = found.parts.begin() + segment.first_part;
-    segment.image_from_segment = fitSegment(layout_[m], finePoses(model_.segments[m], poses[m]),
-                                            {first, first + segment.part_count});
+    segment.image_from_segment = fitSegment(layout_[m], finePoses(model_.segments[m], poses_[m]),
+                                            {found, segment}, fit_workspace_);
     segment.confidence = expectations_.meanConfidence(
         found.parts, static_cast<size_t>(segment.first_part), layout_[m].parts.size());
   }

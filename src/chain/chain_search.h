@@ -20,6 +20,8 @@
 #include "part_expectations.h"
 #include "part_overlaps.h"
 #include "placement_search.h"
+#include "segment_fit.h"
+#include "spring_relaxation.h"
 
 namespace chain_tracker {
 
@@ -50,13 +52,14 @@ class ChainSearch {
   /// The image in which find() looks from now on; it must live as long.
   void show(const cv::Mat& image) { appearance_.show(image); }
 
-  /// `sought` moved to the best chain: parts, poses, confidence, energy and times; its status,
-  /// outline and points are those of `sought`. Confidence 0 if the springs allow no chain.
-  /// Time as of ChainTracker::update().
-  FoundChain find(const ChainState& sought, const SearchRange& range);
+  /// `found` becomes `sought` moved to the best chain: parts, poses, confidence, energy and times;
+  /// its status, outline and points are those of `sought`. Confidence 0 if the springs allow no
+  /// chain. Time as of ChainTracker::update().
+  void find(const ChainState& sought, const SearchRange& range, FoundChain& found);
 
   /// As find(), around the place of PlacementSearch within `reach` [px].
-  FoundChain findAnywhere(const ChainState& sought, double reach, const SearchRange& range);
+  void findAnywhere(const ChainState& sought, double reach, const SearchRange& range,
+                    FoundChain& found);
 
  private:
   /// What is looked at: one entry a segment.
@@ -68,40 +71,35 @@ class ChainSearch {
     std::vector<PoseGrid> poses;
     cv::Mat1f joint_costs;  ///< none
   };
-  /// Of the nodes of each segment.
-  using NodePositions = std::vector<std::vector<cv::Point2d>>;
 
   size_t segments() const { return layout_.size(); }
   double sideOf(size_t m, double scale) const;
   double smallestSide(const std::vector<SegmentPose>& poses) const;
-  void relaxSprings(const ChainState& state);
 
   void lookCoarsely();
   void lookFinely(const ChainMatch& coarse_match);
-  void lookAround(const NodePositions& centers, const std::vector<SegmentPose>& poses, int step,
-                  double radius, SearchStage stage, Candidates& candidates);
+  void lookAround(const std::vector<SegmentPose>& poses, int step, double radius, SearchStage stage,
+                  Candidates& candidates);
   void joinCosts(size_t m, Candidates& candidates) const;
   void keepEdgeCosts(const ChainMatch& coarse_match);
   void robustify(Candidates& candidates) const;
   std::vector<Similarity> placements(const ChainState& sought, double reach);
   std::vector<Voter> votersOf(const ChainState& state, size_t m);
-  ChainMatch matched(const std::vector<PoseGrid>& poses,
-                     const std::vector<SegmentCandidates>& candidates,
-                     ChainMatcherWorkspace& workspace) const;
-  ChainMatch matchFinePoses();
-  void settle(std::vector<SegmentPose> poses, FoundChain& found);
-  double likeness(const std::vector<RefinedPart>& refined,
-                  const std::vector<PartState>& parts) const;
-  void fillIn(const std::vector<RefinedPart>& parts, const std::vector<SegmentPose>& poses,
-              ChainState& found) const;
+  const ChainMatch& matched(const std::vector<PoseGrid>& poses,
+                            const std::vector<SegmentCandidates>& candidates,
+                            ChainMatcherWorkspace& workspace) const;
+  const ChainMatch& matchFinePoses();
+  void settle(FoundChain& found);
+  double likeness(const std::vector<RefinedPart>& refined, const std::vector<PartState>& parts);
+  void fillIn(const std::vector<RefinedPart>& parts, ChainState& found);
 
   ChainModel model_;
   std::vector<SegmentLayout> layout_;
   AppearanceCosts appearance_;
   PartExpectations expectations_;
   PartOverlaps overlaps_;
+  SpringRelaxation springs_;
   PlacementSearch placement_search_;
-  std::vector<std::vector<double>> remembered_turns_;  // of each segment's edges
   std::vector<double> variance_shares_;  // of the parts, in what the chain alone would leave
   // Of the search that goes on.
   ChainState sought_;
@@ -109,12 +107,18 @@ class ChainSearch {
   SearchRange range_;
   Candidates coarse_;
   Candidates fine_;
-  std::vector<SegmentCandidates> middles_;  // of the fine ones, enough to tell poses apart
-  std::vector<double> edge_costs_;          // of the parts where the coarse search found them
+  std::vector<SegmentCandidates> middles_;         // of the fine ones, enough to tell poses apart
+  std::vector<std::vector<cv::Point2d>> centers_;  // of each segment's nodes, around which to look
+  std::vector<cv::Point2d> part_centers_;
+  std::vector<SegmentPose> poses_;
+  std::vector<double> edge_costs_;  // of the parts where the coarse search found them
+  std::vector<double> costs_;       // of the parts by all channels
+  std::vector<double> shares_;      // of PartOverlaps
   // One for each number of states, which would else be allocated anew.
   ChainMatcherWorkspace coarse_workspace_;
   ChainMatcherWorkspace pose_workspace_;
   ChainRefinementWorkspace fine_workspace_;
+  SegmentFitWorkspace fit_workspace_;
 };
 
 }  // namespace chain_tracker

@@ -54,14 +54,13 @@ double forwardPass(const std::vector<cv::Mat1f>& unary, const ChainEdges& edges,
   return last(cheapestState(last));
 }
 
-std::vector<cv::Point> traceBack(const ChainEdges& edges, const cv::Point& end,
-                                 const ChainSolverWorkspace& workspace) {
-  std::vector<cv::Point> states(workspace.forward.size());
+void traceBack(const ChainEdges& edges, const cv::Point& end, const ChainSolverWorkspace& workspace,
+               std::vector<cv::Point>& states) {
+  states.resize(workspace.forward.size());
   states.back() = end;
   for (size_t k = edges.size(); k > 0; --k) {
     states[k - 1] = bestPredecessor(workspace.forward[k - 1], edges[k - 1], states[k]);
   }
-  return states;
 }
 
 void minMarginals(const std::vector<cv::Mat1f>& unary, const ChainEdges& edges,
@@ -70,8 +69,9 @@ void minMarginals(const std::vector<cv::Mat1f>& unary, const ChainEdges& edges,
   marginals.resize(parts);
   workspace.backward_edges.assignReversed(edges);
   workspace.backward.resize(parts);
-  workspace.zeros.create(unary.front().size());
-  workspace.zeros.setTo(0.0F);
+  if (workspace.zeros.size() != unary.front().size()) {
+    workspace.zeros = cv::Mat1f::zeros(unary.front().size());
+  }
   workspace.forward.back().copyTo(marginals.back());
   unary.back().copyTo(workspace.sum);
   for (size_t k = parts - 1; k > 0; --k) {

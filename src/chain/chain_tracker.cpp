@@ -60,9 +60,13 @@ class ChainTracker::Implementation {
     requireSameKind(image, image_size_, image_type_);
     search_.show(image);
     times_ = StepTimes();
-    FoundChain found = state_.status == TrackingStatus::kLost ? look(1 + frames_lost_) : follow();
+    if (state_.status == TrackingStatus::kLost) {
+      found_ = look(1 + frames_lost_);
+    } else {
+      follow();
+    }
     Stopwatch watch;
-    accept(std::move(found));
+    accept();
     times_.pose += watch.lap();
     state_.times = times_;
     return state_;
@@ -90,7 +94,7 @@ class ChainTracker::Implementation {
     return layout;
   }
 
-  ChainState initialState() const {
+  ChainState initialState() {
     ChainState state;
     for (const SegmentLayout& segment : layout_.segments) {
       state.segments.push_back({segment.name, segment.image_from_segment, 1.0,
@@ -120,31 +124,35 @@ class ChainTracker::Implementation {
   }
 
   FoundChain find(const ChainState& sought, const SearchRange& range) {
-    return counted(search_.find(sought, range));
+    FoundChain found;
+    search_.find(sought, range, found);
+    times_ += found.state.times;
+    return found;
   }
 
-  /// Adds the time that it took.
-  FoundChain counted(FoundChain found) {
+  FoundChain findAnywhere(const ChainState& sought, double reach, const SearchRange& range) {
+    FoundChain found;
+    search_.findAnywhere(sought, reach, range, found);
     times_ += found.state.times;
     return found;
   }
 
   /// Where the object is if it has moved on as usual; elsewhere if there is reason to doubt that.
-  FoundChain follow() {
+  void follow() {
     const double radius = searchRadius(0);
-    FoundChain found = find(state_, {radius, model_.search.travel_weight / radius});
-    if (!isDoubtful(found)) {
+    search_.find(state_, {radius, model_.search.travel_weight / radius}, found_);
+    times_ += found_.state.times;
+    if (!isDoubtful(found_)) {
       frames_doubted_ = 0;
-      return found;
+      return;
     }
     ++frames_doubted_;
     if (frames_doubted_ == 1) {
-      for (const int side : {-1, 1}) preferBetter(turned(side), found);
+      for (const int side : {-1, 1}) preferBetter(turned(side), found_);
     } else if (frames_doubted_ % kFramesPerLook == 0) {
-      preferBetter(look(frames_doubted_ / kFramesPerLook), found);
+      preferBetter(look(frames_doubted_ / kFramesPerLook), found_);
     }
-    if (!isDoubtful(found)) frames_doubted_ = 0;
-    return found;
+    if (!isDoubtful(found_)) frames_doubted_ = 0;
   }
 
   bool isDoubtful(const FoundChain& found) const {
@@ -181,8 +189,8 @@ class ChainTracker::Implementation {
     const double reach = searchRadius(failures);
     const SearchRange nearby{searchRadius(0), 0.0};
     const bool is_placed = failures % 2 == 0;
-    FoundChain found = is_placed ? counted(search_.findAnywhere(trusted_, reach, nearby))
-                                 : find(trusted_, {reach, 0.0});
+    FoundChain found =
+        is_placed ? findAnywhere(trusted_, reach, nearby) : find(trusted_, {reach, 0.0});
     if (isLine()) found = refitted(std::move(found));
     if (found.state.confidence >= model_.search.found_above) preferBetter(reversed(found), found);
     return found;
@@ -211,8 +219,8 @@ class ChainTracker::Implementation {
 
   /// What was found becomes the state if it is good enough; otherwise the object is LOST and stays
   /// where it was last believed to be.
-  void accept(FoundChain chain) {
-    ChainState& found = chain.state;
+  void accept() {
+    ChainState& found = found_.state;
     const double hidden = search_.expectations().hiddenShare(found.parts);
     const bool is_seen = hidden <= kMostHidden;
     const double usual = search_.expectations().usualConfidence();
@@ -224,10 +232,10 @@ class ChainTracker::Implementation {
     }
     frames_lost_ = 0;
     shape_.carry(found);
-    search_.observe(chain);
+    search_.observe(found_);
     const double least = isLine() ? kTrustedLine : kTrusted;
-    if (chain.likeness >= least * search_.expectations().usualLikeness()) trusted_ = found;
-    state_ = std::move(found);
+    if (found_.likeness >= least * search_.expectations().usualLikeness()) trusted_ = found;
+    std::swap(state_, found);
   }
 
   /// Positions stay the last believed ones; nothing else is told of them any more.
@@ -253,6 +261,7 @@ class ChainTracker::Implementation {
   int image_type_;
   ChainState state_;
   ChainState trusted_;  // when the object was last seen for sure
+  FoundChain found_;    // in this frame
   ChainSearch search_;
   StepTimes times_;
   int frames_lost_ = 0;

@@ -106,7 +106,6 @@ void sampleEdge(const EdgePotential& potential, int step, const cv::Point2d& shi
   const double widest_turn = std::min(CV_PI, kCutOffSigmas * potential.direction_sigma);
   const double least_cosine = std::cos(widest_turn) - kCosineSlack;
   stencil.clear();
-  stencil.reserve(static_cast<size_t>(bounds.area() / (step * step)) + 1);
   for (int rows = first(bounds.y); rows <= last(bounds.br().y); ++rows) {
     for (int columns = first(bounds.x); columns <= last(bounds.br().x); ++columns) {
       const cv::Point2d edge = cv::Point2d(columns * step, rows * step) + shift;
@@ -125,7 +124,6 @@ void sampleEdge(const EdgePotential& potential, int step, const cv::Point2d& shi
 void betweenStates(const EdgeStencil& stencil, const cv::Point& origin, const cv::Size& reach,
                    EdgeStencil& shifted) {
   shifted.clear();
-  shifted.reserve(stencil.size());
   for (const StencilOffset& offset : stencil) {
     const int columns = offset.columns - origin.x;
     const int rows = offset.rows - origin.y;

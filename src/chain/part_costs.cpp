@@ -70,12 +70,11 @@ cv::Point2d CandidateGrid::originAround(const cv::Point2d& center) const {
                      step;
 }
 
-CandidateGrid makeCandidateGrid(const std::vector<cv::Point2d>& centers, double side, int step,
-                                double radius) {
+void placeCandidateGrid(const std::vector<cv::Point2d>& centers, double side, int step,
+                        double radius, CandidateGrid& grid) {
   const int window_cells = std::max(1, static_cast<int>(std::lround(side / step)));
   const int reach = std::max(1, static_cast<int>(std::ceil(radius / step)));
   const cv::Rect2d bounds = uprightBounds(centers);
-  CandidateGrid grid;
   grid.states = {2 * reach + 1, 2 * reach + 1};
   grid.lattice.step = step;
   grid.lattice.window_cells = window_cells;
@@ -87,7 +86,8 @@ CandidateGrid makeCandidateGrid(const std::vector<cv::Point2d>& centers, double 
   const auto corner = [&](double center, double first_center) {
     return std::max(0, static_cast<int>(std::lround((center - first_center) / step)) - reach);
   };
-  grid.corners.reserve(centers.size());
+  grid.corners.clear();
+  grid.lattice.size = {};
   for (const cv::Point2d& center : centers) {
     grid.corners.emplace_back(corner(center.x, first.x), corner(center.y, first.y));
   }
@@ -96,7 +96,6 @@ CandidateGrid makeCandidateGrid(const std::vector<cv::Point2d>& centers, double 
     grid.lattice.size.height =
         std::max(grid.lattice.size.height, first_state.y + grid.states.height);
   }
-  return grid;
 }
 
 void computePartCosts(FramePixels& pixels, Channel channel, const std::vector<RootHistogram>& parts,

@@ -23,15 +23,15 @@ PartOverlaps::PartOverlaps(const std::vector<PartState>& initial) {
   }
 }
 
-std::vector<double> PartOverlaps::shares(const std::vector<PartState>& parts) const {
-  std::vector<double> shares(parts.size(), 1.0);
+void PartOverlaps::computeShares(const std::vector<PartState>& parts,
+                                 std::vector<double>& shares) const {
+  shares.assign(parts.size(), 1.0);
   for (const auto& [a, b] : apart_) {
     if (!isNear(parts[a], parts[b])) continue;
     ++shares[a];
     ++shares[b];
   }
   for (double& share : shares) share = 1.0 / share;
-  return shares;
 }
 
 }  // namespace chain_tracker

@@ -16,9 +16,9 @@ class PartOverlaps {
   /// `initial`: the parts in the first frame.
   explicit PartOverlaps(const std::vector<PartState>& initial);
 
-  /// Of what each part sees, its share among the parts that now lie on it, in (0, 1]; parts that
-  /// did so in the first frame do not count. O(parts^2).
-  std::vector<double> shares(const std::vector<PartState>& parts) const;
+  /// `shares` become, of what each part sees, its share among the parts that now lie on it, in
+  /// (0, 1]; parts that did so in the first frame do not count. O(parts^2).
+  void computeShares(const std::vector<PartState>& parts, std::vector<double>& shares) const;
 
  private:
   std::vector<std::pair<size_t, size_t>> apart_;  ///< in the first frame

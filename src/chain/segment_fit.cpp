@@ -33,7 +33,7 @@ double lengthRatio(const std::vector<cv::Point2d>& reference, const std::vector<
 }
 
 /// Inverse variance of the log scale in a fit of parts whose errors are independent.
-double scaleInformation(const std::vector<PartState>& parts, const cv::Point2d& center) {
+double scaleInformation(const SegmentParts& parts, const cv::Point2d& center) {
   double information = 0.0;
   for (const PartState& part : parts) {
     const cv::Vec2d arm = part.position - center;
@@ -61,24 +61,24 @@ double clampedScale(double from, double to, double limit) {
 
 }  // namespace
 
-Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses,
-                      const std::vector<PartState>& parts) {
+Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses, const SegmentParts& parts,
+                      SegmentFitWorkspace& workspace) {
   const SegmentPose& searched = poses.middle;
-  std::vector<cv::Point2d> reference;
-  std::vector<cv::Point2d> found;
-  std::vector<double> weights;
-  reference.reserve(parts.size());
-  found.reserve(parts.size());
-  weights.reserve(parts.size());
+  auto& [reference, found, confidences, weights] = workspace;
+  reference.clear();
+  found.clear();
+  confidences.clear();
   for (size_t k = 0; k < parts.size(); ++k) {
     reference.push_back(layout.parts[k].position);
     found.push_back(parts[k].position);
-    weights.push_back(parts[k].confidence + kSmallestWeight);
+    confidences.push_back(parts[k].confidence + kSmallestWeight);
   }
   const bool is_deformable = layout.layout == Layout::kDeformable;
-  if (!is_deformable) {
+  if (is_deformable) {
+    weights = confidences;
+  } else {
     const double side = layout.parts.front().side * searched.scale;
-    weights = robustWeights(reference, found, weights, kTolerance * side);
+    robustWeights(reference, found, confidences, kTolerance * side, weights);
   }
   Similarity fit = fitSimilarity(reference, found, weights);
   if (is_deformable) {

@@ -10,12 +10,20 @@
 
 namespace chain_tracker {
 
+/// Kept from call to call so that no memory is allocated once sizes have settled.
+struct SegmentFitWorkspace {
+  std::vector<cv::Point2d> reference;  ///< parts in the segment's frame
+  std::vector<cv::Point2d> found;      ///< in the image
+  std::vector<double> confidences;
+  std::vector<double> weights;
+};
+
 /// Least squares over the segment's parts but those that have slid off to what looks like them,
 /// weighted by confidence; at most half a step of `poses` from their middle: beyond it, the energy
 /// knows better than the parts, which lean inwards wherever the object is uniform.
 /// A rigid segment of which a single scale is searched, so that no energy tells it, returns to that
 /// of the first frame, 1, as far as the covariances of its parts leave the scale open. O(parts).
-Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses,
-                      const std::vector<PartState>& parts);
+Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses, const SegmentParts& parts,
+                      SegmentFitWorkspace& workspace);
 
 }  // namespace chain_tracker

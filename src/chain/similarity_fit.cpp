@@ -49,10 +49,10 @@ Similarity fitSimilarity(const std::vector<cv::Point2d>& from, const std::vector
   return fit;
 }
 
-std::vector<double> robustWeights(const std::vector<cv::Point2d>& from,
-                                  const std::vector<cv::Point2d>& to,
-                                  const std::vector<double>& weights, double tolerance) {
-  std::vector<double> robust = weights;
+void robustWeights(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2d>& to,
+                   const std::vector<double>& weights, double tolerance,
+                   std::vector<double>& robust) {
+  robust = weights;
   for (int round = 0; round < kRounds; ++round) {
     const Similarity fit = fitSimilarity(from, to, robust);
     for (size_t k = 0; k < from.size(); ++k) {
@@ -61,7 +61,6 @@ std::vector<double> robustWeights(const std::vector<cv::Point2d>& from,
       robust[k] = weights[k] * share * share;
     }
   }
-  return robust;
 }
 
 cv::Point2d fitTranslation(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2d>& to,

@@ -61,14 +61,16 @@ cv::Rect EdgeDirections::neededFor(const cv::Rect& region) {
   return region + cv::Size(2, 2) - cv::Point(1, 1);
 }
 
-std::vector<cv::Mat1i> EdgeDirections::gradients(const cv::Mat1b& grey) {
+const std::vector<cv::Mat1i>& EdgeDirections::gradients(const cv::Mat1b& grey) {
   executor_->run(grey, responses_);
   const cv::Rect inner(1, 1, grey.cols - 2, grey.rows - 2);
-  return {responses_[0](inner), responses_[1](inner)};
+  gradients_.clear();
+  for (const cv::Mat1i& response : responses_) gradients_.push_back(response(inner));
+  return gradients_;
 }
 
 void EdgeDirections::compute(const cv::Mat1b& grey, cv::Mat1b& codes) {
-  const std::vector<cv::Mat1i> gradient = gradients(grey);
+  const std::vector<cv::Mat1i>& gradient = gradients(grey);
   for (int row = 0; row < codes.rows; ++row) {
     codeRow(gradient[0][row], gradient[1][row], codes[row], codes.cols);
   }

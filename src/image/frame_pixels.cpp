@@ -57,7 +57,7 @@ cv::Mat1b FramePixels::zeroOutside(const cv::Rect& region, PartialPlane& plane,
   if (!inside.empty()) ensure(inside, plane, compute);
   if (inside == region) return plane.pixels(region);
   reuse(plane.padded, region.size());
-  plane.padded.setTo(0);
+  fill(plane.padded, uchar(0));
   if (!inside.empty()) plane.pixels(inside).copyTo(plane.padded(inside - region.tl()));
   return plane.padded;
 }

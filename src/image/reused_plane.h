@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Planes whose size changes with every call, in memory that is kept.
+/// Planes that are filled anew with every call, in memory that is kept.
 #pragma once
 
 #include <algorithm>
@@ -27,6 +27,12 @@ void reuse(cv::Mat_<Element>& plane, const cv::Size& size) {
     plane.create(grown(size.height, capacity.height), grown(size.width, capacity.width));
   }
   plane.adjustROI(0, size.height - plane.rows, 0, size.width - plane.cols);
+}
+
+/// Sets all elements; cv::Mat::setTo() allocates memory for a run of them first.
+template <typename Element>
+void fill(cv::Mat_<Element>& plane, Element value) {
+  for (int row = 0; row < plane.rows; ++row) std::fill_n(plane[row], plane.cols, value);
 }
 
 }  // namespace chain_tracker

@@ -30,7 +30,7 @@ void listWanted(const std::vector<bool>& wanted, std::vector<size_t>& codes) {
 template <typename Cell>
 void countPixels(const cv::Mat1b& codes, int step, const std::vector<size_t>& wanted, int columns,
                  cv::Mat_<Cell>& plane) {
-  plane.setTo(0);
+  fill(plane, Cell(0));
   std::array<int, kCodes> offsets;
   offsets.fill(columns * static_cast<int>(wanted.size()));
   for (size_t i = 0; i < wanted.size(); ++i) offsets[wanted[i]] = static_cast<int>(i) * columns;

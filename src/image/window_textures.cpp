@@ -63,7 +63,7 @@ void computeWindowTextures(FramePixels& pixels, const WindowLattice& lattice,
                            WindowTexturesWorkspace& workspace) {
   for (cv::Mat1f& plane : textures) reuse(plane, lattice.size);
   if (lattice.window_cells == 1) {
-    for (cv::Mat1f& plane : textures) plane.setTo(0.0F);
+    for (cv::Mat1f& plane : textures) fill(plane, 0.0F);
     return;
   }
   const cv::Rect region = lattice.pixels();

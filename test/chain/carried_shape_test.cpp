@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "chain_tracker/chain/object_shape.h"
+
 namespace chain_tracker {
 namespace {
 
@@ -59,6 +61,30 @@ Object moved(const SegmentLayout& layout, const Similarity& motion) {
   return object;
 }
 
+std::vector<CarriedPoint> pointsOf(const CarriedShape& carried, const Object& object) {
+  std::vector<CarriedPoint> points;
+  carried.addPoints(object.segment, object.parts, points);
+  return points;
+}
+
+std::vector<cv::Point2d> outlineOf(const CarriedShape& carried, const Object& object) {
+  std::vector<cv::Point2d> outline;
+  carried.addOutline(object.segment, object.parts, outline);
+  return outline;
+}
+
+cv::Rect2d boxOf(const CarriedShape& carried, const Object& object) {
+  return carried.box(object.segment, outlineOf(carried, object));
+}
+
+std::vector<double> orientationsOf(const SegmentLayout& layout, const Object& object) {
+  std::vector<double> orientations;
+  for (size_t k = 0; k < object.parts.size(); ++k) {
+    orientations.push_back(partOrientation(layout, object.segment, object.parts, k));
+  }
+  return orientations;
+}
+
 void expectNear(const cv::Point2d& expected, const cv::Point2d& actual, const std::string& what) {
   EXPECT_NEAR(expected.x, actual.x, 1e-6) << what;
   EXPECT_NEAR(expected.y, actual.y, 1e-6) << what;
@@ -77,7 +103,7 @@ TEST(CarriedShape, pointsAreThoseGivenAndMoveWithTheObject) {
     for (const Similarity& motion :
          {Similarity(), Similarity{0.3, 1.2, {15, -8}}, Similarity{-2.8, 0.5, {200, 40}}}) {
       const Object object = moved(layout, motion);
-      const std::vector<CarriedPoint> points = carried.points(object.segment, object.parts);
+      const std::vector<CarriedPoint> points = pointsOf(carried, object);
       ASSERT_EQ(shape.points.size(), points.size());
       for (size_t i = 0; i < points.size(); ++i) {
         expectNear(motion.apply(shape.points[i]), points[i].position, "point " + std::to_string(i));
@@ -97,8 +123,8 @@ TEST(CarriedShape, outlineTurnsAndGrowsWithTheObject) {
     const Similarity motion{0.7, 1.5, {3, 4}};
     const Object object = moved(layout, Similarity());
     const Object turned = moved(layout, motion);
-    const auto at_first = carried.outline(object.segment, object.parts);
-    const auto later = carried.outline(turned.segment, turned.parts);
+    const auto at_first = outlineOf(carried, object);
+    const auto later = outlineOf(carried, turned);
     ASSERT_EQ(4U, at_first.size());
     ASSERT_EQ(4U, later.size());
     for (size_t i = 0; i < 4; ++i) {
@@ -113,7 +139,7 @@ TEST(CarriedShape, boxBoundsTheShapeAtFirst) {
     SCOPED_TRACE(shape.name);
     const SegmentLayout layout = layOutShape(shape);
     const Object object = moved(layout, Similarity());
-    expectNear(uprightBounds(shape.points), CarriedShape(layout).box(object.segment, object.parts));
+    expectNear(uprightBounds(shape.points), boxOf(CarriedShape(layout), object));
   }
 }
 
@@ -132,7 +158,7 @@ TEST(CarriedShape, uprightBoxMovesAndGrowsButDoesNotTurn) {
                                            center + cv::Point2d(7, 9)};
       // All about the segment's centre.
       const cv::Point2d low = center + 2.0 * (cv::Point2d(20, 20) - center) + cv::Point2d(7, 9);
-      expectNear(cv::Rect2d(low, cv::Size2d(80, 180)), carried.box(object.segment, object.parts));
+      expectNear(cv::Rect2d(low, cv::Size2d(80, 180)), boxOf(carried, object));
     }
   }
 }
@@ -148,7 +174,7 @@ TEST(CarriedShape, turnedBoxAndPointsAreBoundedAnewAsTheyTurn) {
       for (const cv::Point2d& corner : shape.points) {
         corners.push_back(Similarity{angle, 1.5, {7, 9}}.apply(corner));
       }
-      expectNear(uprightBounds(corners), carried.box(object.segment, object.parts));
+      expectNear(uprightBounds(corners), boxOf(carried, object));
     }
   }
 }
@@ -159,9 +185,9 @@ TEST(CarriedShape, boxOfTwoEndsTurnsHoweverTheyLieAtFirst) {
     const SegmentLayout layout = layOutShape(shape);
     const CarriedShape carried(layout);
     const Object object = moved(layout, {1.0, 1.5, {7, 9}});
-    const cv::Rect2d box = carried.box(object.segment, object.parts);
-    expectNear(uprightBounds(carried.outline(object.segment, object.parts)), box);
-    for (const CarriedPoint& end : carried.points(object.segment, object.parts)) {
+    const cv::Rect2d box = boxOf(carried, object);
+    expectNear(uprightBounds(outlineOf(carried, object)), box);
+    for (const CarriedPoint& end : pointsOf(carried, object)) {
       EXPECT_TRUE(box.contains(end.position)) << end.position;
     }
   }
@@ -179,17 +205,18 @@ struct Line {
     layout = layOut(model, {{0, 0}, {10, 0}, {20, 0}, {30, 0}, {40, 0}}).segments.front();
     object = moved(layout, Similarity());
   }
-  std::vector<CarriedPoint> points() const {
-    return CarriedShape(layout).points(object.segment, object.parts);
-  }
+  std::vector<CarriedPoint> points() const { return pointsOf(CarriedShape(layout), object); }
 };
 
-TEST(CarriedShape, outlineOfADeformableObjectIsAroundItAsItIs) {
+TEST(ObjectShape, outlineOfADeformableObjectIsAroundItAsItIs) {
   Line line;
   line.object.parts[2].position = {20, 30};
-  const CarriedShape carried(line.layout);
-  EXPECT_EQ(3U, carried.outline(line.object.segment, line.object.parts).size());
-  expectNear(cv::Rect2d(0, 0, 20, 30), carried.box(line.object.segment, line.object.parts));
+  ChainState state;
+  state.parts = line.object.parts;
+  state.segments = {line.object.segment};
+  ObjectShape({line.layout}).carry(state);
+  EXPECT_EQ(3U, state.outline.size());
+  expectNear(cv::Rect2d(0, 0, 20, 30), state.box);
 }
 
 TEST(CarriedShape, pointsOfADeformableObjectFollowTheirEdge) {
@@ -235,25 +262,25 @@ TEST(CarriedShape, pointsOfARigidObjectAreSeenWithTheNearestPart) {
   }
   object.parts[nearest].visible = false;
   object.parts[nearest].confidence = 0.1;
-  const auto points = CarriedShape(layout).points(object.segment, object.parts);
+  const auto points = pointsOf(CarriedShape(layout), object);
   EXPECT_FALSE(points[2].visible);
   EXPECT_EQ(0.1, points[2].confidence);
   for (size_t i : {0U, 1U, 3U}) EXPECT_TRUE(points[i].visible) << "point " << i;
 }
 
-TEST(PartOrientations, areTheSegmentsOnARigidLayout) {
+TEST(PartOrientation, areTheSegmentsOnARigidLayout) {
   const SegmentLayout layout = layOutShape(shapes()[3]);
   const Object object = moved(layout, {0.3, 1.0, {0, 0}});
   const double angle = object.segment.image_from_segment.angle;
-  for (double orientation : partOrientations(layout, object.segment, object.parts)) {
+  for (double orientation : orientationsOf(layout, object)) {
     EXPECT_EQ(angle, orientation);
   }
 }
 
-TEST(PartOrientations, followADeformableChain) {
+TEST(PartOrientation, followADeformableChain) {
   Line line;
   line.object.parts[2].position = {20, 20};
-  const auto angles = partOrientations(line.layout, line.object.segment, line.object.parts);
+  const auto angles = orientationsOf(line.layout, line.object);
   ASSERT_EQ(3U, angles.size());
   EXPECT_NEAR(0.0, angles[0], 1e-9);
   EXPECT_NEAR(CV_PI / 4.0, angles[1], 1e-9);

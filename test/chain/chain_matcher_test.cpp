@@ -106,7 +106,7 @@ TinyChain tinyChain(RandomInputs& random, const TinySize& size, bool limited) {
     const Similarity transform{chain.previous[m].orientation + random.real(-0.3, 0.3),
                                chain.previous[m].scale * random.real(0.9, 1.1), start};
     const std::vector<cv::Point2d> nodes = placed(chain.segments[m], transform);
-    const CandidateGrid grid = makeCandidateGrid(nodes, 10.0, step, size.reach * step);
+    const CandidateGrid grid = gridAround(nodes, 10.0, step, size.reach * step);
     SegmentCandidates candidates =
         candidatesOn(grid, random.costMaps(nodes.size(), grid.states, 0.1));
     // Every segment has a lattice of its own, but the joint lies on that of the segment before.
@@ -225,7 +225,7 @@ TEST(MatchChain, limitsTurnJointsBack) {
 std::vector<SegmentCandidates> candidatesShowing(const SegmentLayout& segment,
                                                  const SegmentPose& pose) {
   const std::vector<cv::Point2d> truth = placed(segment, {pose.orientation, pose.scale, {50, 50}});
-  const CandidateGrid grid = makeCandidateGrid(truth, 8.0, 1, 6.0);
+  const CandidateGrid grid = gridAround(truth, 8.0, 1, 6.0);
   std::vector<cv::Mat1f> costs(truth.size());
   for (cv::Mat1f& map : costs) {
     map = cv::Mat1f(grid.states, 20.0F);

@@ -51,7 +51,7 @@ void expectCovariance(const cv::Matx22d& expected, const cv::Matx22d& actual, do
 TEST(RefineChain, findsPositionAndCovarianceOfAGaussian) {
   for (int step : {1, 2, 5}) {
     for (const cv::Point2d& offset : {cv::Point2d(0, 0), cv::Point2d(0.4, -0.3)}) {
-      const CandidateGrid grid = makeCandidateGrid({{60, 40}}, 11.0, step, 4.0 * step);
+      const CandidateGrid grid = gridAround({{60, 40}}, 11.0, step, 4.0 * step);
       const cv::Point2d mean = grid.positionOf(0, {5.0, 3.0}) + step * offset;
       const cv::Matx22d covariance(9.0, 0.0, 0.0, 4.0);
       const std::vector<cv::Mat1f> costs = {gaussianCosts(grid, 0, mean, covariance)};
@@ -65,7 +65,7 @@ TEST(RefineChain, findsPositionAndCovarianceOfAGaussian) {
 }
 
 TEST(RefineChain, findsPositionAndCovarianceOfATurnedGaussian) {
-  const CandidateGrid grid = makeCandidateGrid({{60, 40}}, 11.0, 1, 4.0);
+  const CandidateGrid grid = gridAround({{60, 40}}, 11.0, 1, 4.0);
   const cv::Point2d mean = grid.positionOf(0, {5.0, 3.0}) + cv::Point2d(0.4, 0.4);
   const cv::Matx22d covariance(9.0, 7.0, 7.0, 9.0);
   const std::vector<cv::Mat1f> costs = {gaussianCosts(grid, 0, mean, covariance)};
@@ -77,7 +77,7 @@ TEST(RefineChain, findsPositionAndCovarianceOfATurnedGaussian) {
 
 /// A ridge along one diagonal only: its second differences are those of no quadratic.
 TEST(RefineChain, covarianceOfALopsidedBowlKeepsTheWidthsOfItsAxes) {
-  const CandidateGrid grid = makeCandidateGrid({{60, 40}}, 11.0, 1, 4.0);
+  const CandidateGrid grid = gridAround({{60, 40}}, 11.0, 1, 4.0);
   const cv::Point middle(grid.states / 2);
   const cv::Point2d mean = grid.positionOf(0, cv::Point2d(middle));
   cv::Mat1f costs = gaussianCosts(grid, 0, mean, cv::Matx22d(9.0, 0.0, 0.0, 4.0));
@@ -94,7 +94,7 @@ TEST(RefineChain, covarianceOfALopsidedBowlKeepsTheWidthsOfItsAxes) {
 }
 
 TEST(RefineChain, covarianceIsUnknownAtTheBorderOfTheSearch) {
-  const CandidateGrid grid = makeCandidateGrid({{60, 40}}, 11.0, 1, 4.0);
+  const CandidateGrid grid = gridAround({{60, 40}}, 11.0, 1, 4.0);
   const cv::Point2d mean = grid.positionOf(0, {0.0, 3.0});
   const std::vector<cv::Mat1f> costs = {gaussianCosts(grid, 0, mean, cv::Matx22d::eye())};
   const auto parts = refineSegment(onePart(), grid, costs);
@@ -104,14 +104,14 @@ TEST(RefineChain, covarianceIsUnknownAtTheBorderOfTheSearch) {
 }
 
 TEST(RefineChain, covarianceIsUnknownOnLevelGround) {
-  const CandidateGrid grid = makeCandidateGrid({{60, 40}}, 11.0, 1, 4.0);
+  const CandidateGrid grid = gridAround({{60, 40}}, 11.0, 1, 4.0);
   const auto parts = refineSegment(onePart(), grid, {cv::Mat1f(grid.states, 2.0F)});
   ASSERT_EQ(1U, parts.size());
   for (double value : parts[0].covariance.val) EXPECT_TRUE(std::isnan(value));
 }
 
 TEST(RefineChain, isEmptyWhereNoChainIsAllowed) {
-  const CandidateGrid grid = makeCandidateGrid({{60, 40}}, 11.0, 1, 4.0);
+  const CandidateGrid grid = gridAround({{60, 40}}, 11.0, 1, 4.0);
   const cv::Mat1f forbidden(grid.states, static_cast<float>(kInfinity));
   EXPECT_TRUE(refineSegment(onePart(), grid, {forbidden}).empty());
 }
@@ -122,7 +122,7 @@ TEST(RefineChain, hiddenPartIsAsUncertainAsItsNeighbourAndTheSpring) {
   SegmentLayout segment = onePart();
   segment.parts.push_back({{30.0, 0.0}, 10.0});
   segment.edges.push_back({30.0, 0.0, 0.1, 0.1});
-  const CandidateGrid grid = makeCandidateGrid({{60, 60}, {90, 60}}, 11.0, 1, 12.0);
+  const CandidateGrid grid = gridAround({{60, 60}, {90, 60}}, 11.0, 1, 12.0);
   const cv::Point middle(grid.states / 2);
   const cv::Point2d mean = grid.positionOf(0, cv::Point2d(middle));
   const std::vector<cv::Mat1f> costs = {gaussianCosts(grid, 0, mean, cv::Matx22d::eye() * 9.0),

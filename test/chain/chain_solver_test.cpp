@@ -14,6 +14,13 @@
 namespace chain_tracker {
 namespace {
 
+std::vector<cv::Point> tracedBack(const ChainEdges& edges, const cv::Point& end,
+                                  const ChainSolverWorkspace& workspace) {
+  std::vector<cv::Point> states;
+  traceBack(edges, end, workspace, states);
+  return states;
+}
+
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct Problem {
@@ -75,7 +82,7 @@ TEST(ChainSolver, findsTheBestOfAllChains) {
       }
       ++feasible;
       const std::vector<cv::Point> states =
-          traceBack(problem.edges, cheapestState(workspace.forward.back()), workspace);
+          tracedBack(problem.edges, cheapestState(workspace.forward.back()), workspace);
       ASSERT_EQ(size.parts, states.size());
       EXPECT_EQ(cost, brute_force::energyOf(problem.unary, edge, states));
     }
@@ -111,7 +118,7 @@ TEST(ChainSolver, everyMinMarginalsLeastCostIsTheChains) {
   const double cost = forwardPass(problem.unary, problem.edges, workspace);
   ASSERT_TRUE(std::isfinite(cost));
   const std::vector<cv::Point> states =
-      traceBack(problem.edges, cheapestState(workspace.forward.back()), workspace);
+      tracedBack(problem.edges, cheapestState(workspace.forward.back()), workspace);
   std::vector<cv::Mat1f> marginals;
   minMarginals(problem.unary, problem.edges, marginals, workspace);
   for (size_t k = 0; k < marginals.size(); ++k) {
@@ -170,7 +177,7 @@ TEST(ChainSolver, springAtRestJoinsBothSpotsForNothing) {
   ChainSolverWorkspace workspace;
   EXPECT_EQ(0.0, forwardPass(spots.problem.unary, spots.problem.edges, workspace));
   const std::vector<cv::Point> states =
-      traceBack(spots.problem.edges, cheapestState(workspace.forward.back()), workspace);
+      tracedBack(spots.problem.edges, cheapestState(workspace.forward.back()), workspace);
   EXPECT_EQ(cv::Point(10, 10), states[0]);
   EXPECT_EQ(cv::Point(13, 14), states[1]);
 }
@@ -181,18 +188,18 @@ TEST(ChainSolver, spotIsLeftOnceStretchingCostsMore) {
   ChainSolverWorkspace workspace;
   const TwoSpots stretched(3 - 5);
   EXPECT_EQ(25.0, forwardPass(stretched.problem.unary, stretched.problem.edges, workspace));
-  EXPECT_EQ(cv::Point(10, 10), traceBack(stretched.problem.edges,
-                                         cheapestState(workspace.forward.back()), workspace)[0]);
-  EXPECT_EQ(cv::Point(13, 14), traceBack(stretched.problem.edges,
-                                         cheapestState(workspace.forward.back()), workspace)[1]);
+  EXPECT_EQ(cv::Point(10, 10), tracedBack(stretched.problem.edges,
+                                          cheapestState(workspace.forward.back()), workspace)[0]);
+  EXPECT_EQ(cv::Point(13, 14), tracedBack(stretched.problem.edges,
+                                          cheapestState(workspace.forward.back()), workspace)[1]);
 
   const TwoSpots torn(3 - 6);
   EXPECT_EQ(30.0, forwardPass(torn.problem.unary, torn.problem.edges, workspace));
   // Two chains cost 30; the one whose last part comes first in row-major order is taken.
   EXPECT_EQ(cv::Point(10, 10),
-            traceBack(torn.problem.edges, cheapestState(workspace.forward.back()), workspace)[0]);
+            tracedBack(torn.problem.edges, cheapestState(workspace.forward.back()), workspace)[0]);
   EXPECT_EQ(cv::Point(7, 14),
-            traceBack(torn.problem.edges, cheapestState(workspace.forward.back()), workspace)[1]);
+            tracedBack(torn.problem.edges, cheapestState(workspace.forward.back()), workspace)[1]);
 }
 
 ChainEdges twoAlike(const EdgeStencil& stencil) {
@@ -212,7 +219,7 @@ TEST(ChainSolver, chainOfThreeShiftsAsAWhole) {
   ChainSolverWorkspace workspace;
   EXPECT_EQ(2.0, forwardPass(unary, edges, workspace));
   const std::vector<cv::Point> states =
-      traceBack(edges, cheapestState(workspace.forward.back()), workspace);
+      tracedBack(edges, cheapestState(workspace.forward.back()), workspace);
   EXPECT_EQ((std::vector<cv::Point>{{12, 0}, {16, 0}, {22, 0}}), states);
 }
 
@@ -222,7 +229,7 @@ TEST(ChainSolver, tiesGoToTheFirstStateOfTheLastPartThenToTheFirstOffset) {
   ChainSolverWorkspace workspace;
   EXPECT_EQ(4.0, forwardPass(unary, edges, workspace));
   const std::vector<cv::Point> states =
-      traceBack(edges, cheapestState(workspace.forward.back()), workspace);
+      tracedBack(edges, cheapestState(workspace.forward.back()), workspace);
   EXPECT_EQ((std::vector<cv::Point>{{2, 0}, {1, 0}, {0, 0}}), states);
 }
 

@@ -32,7 +32,7 @@ TEST(EdgeSampler, costWhatTheSpringsCostBetweenTheCandidates) {
     const Similarity transform{0.6, 1.15, {50, 50}};
     std::vector<cv::Point2d> centers = placed(segment, transform);
     for (cv::Point2d& center : centers) center += random.point(-3.0, 3.0);
-    const CandidateGrid grid = makeCandidateGrid(centers, 10.0, step, 2.0 * step);
+    const CandidateGrid grid = gridAround(centers, 10.0, step, 2.0 * step);
     SegmentCandidates candidates = candidatesOn(grid, {});
     candidates.origins.back() += cv::Point2d(0.3, -0.4);  // a lattice of its own
     sampler.sample(segment, candidates, pose, edges);
@@ -62,7 +62,7 @@ TEST(EdgeSampler, costWhatTheSpringsCostBetweenTheCandidates) {
 TEST(EdgeSampler, leaveNoEdgeOfNearlyEqualOnesOut) {
   const SegmentLayout segment = chainOf(
       {{14.0, 0.3, 0.1, 0.2}, {14.0, 0.3 + 0.9e-6, 0.1, 0.2}, {14.0, 0.3 + 1.8e-6, 0.1, 0.2}});
-  const CandidateGrid grid = makeCandidateGrid(placed(segment, {0.0, 1.0, {50, 50}}), 10.0, 1, 6.0);
+  const CandidateGrid grid = gridAround(placed(segment, {0.0, 1.0, {50, 50}}), 10.0, 1, 6.0);
   EdgeSampler sampler;
   ChainEdges edges;
   sampler.sample(segment, candidatesOn(grid, {}), {0.0, 1.0}, edges);

@@ -10,6 +10,7 @@
 
 #include "chain_tracker/image/pixel_geometry.h"
 #include "support/brute_force.h"
+#include "support/lattice_candidates.h"
 #include "support/map_difference.h"
 #include "support/random_inputs.h"
 
@@ -56,7 +57,7 @@ TEST(MakeCandidateGrid, middleStatesAreNearestToTheCenters) {
     const std::vector<cv::Point2d> centers = random.points(6, -100.0, 400.0);
     const int step = random.integer(1, 9);
     const CandidateGrid grid =
-        makeCandidateGrid(centers, random.real(4.0, 60.0), step, random.real(0.0, 50.0));
+        gridAround(centers, random.real(4.0, 60.0), step, random.real(0.0, 50.0));
     SCOPED_TRACE(textOf(grid));
     EXPECT_EQ(1, grid.states.width % 2);
     EXPECT_EQ(1, grid.states.height % 2);
@@ -73,7 +74,7 @@ TEST(MakeCandidateGrid, reachesTheRadiusAroundTheMiddleStates) {
   for (int repeat = 0; repeat < 100; ++repeat) {
     const double radius = random.real(0.0, 50.0);
     const int step = random.integer(1, 9);
-    const CandidateGrid grid = makeCandidateGrid(random.points(3, 0.0, 99.0), 20.0, step, radius);
+    const CandidateGrid grid = gridAround(random.points(3, 0.0, 99.0), 20.0, step, radius);
     const cv::Point2d first = grid.positionOf(1, {0.0, 0.0});
     const cv::Point2d middle = grid.positionOf(1, cv::Point(grid.states / 2));
     EXPECT_GE(middle.x - first.x, radius);
@@ -85,8 +86,8 @@ TEST(MakeCandidateGrid, reachesTheRadiusAroundTheMiddleStates) {
 TEST(MakeCandidateGrid, latticeHoldsTheStatesOfAllPartsAndNoMore) {
   RandomInputs random(3);
   for (int repeat = 0; repeat < 100; ++repeat) {
-    const CandidateGrid grid = makeCandidateGrid(random.points(5, -50.0, 300.0), 20.0,
-                                                 random.integer(1, 9), random.real(1.0, 40.0));
+    const CandidateGrid grid = gridAround(random.points(5, -50.0, 300.0), 20.0,
+                                          random.integer(1, 9), random.real(1.0, 40.0));
     SCOPED_TRACE(textOf(grid));
     cv::Rect used;
     for (const cv::Point& corner : grid.corners) used |= cv::Rect(corner, grid.states);
@@ -98,7 +99,7 @@ TEST(MakeCandidateGrid, latticeHoldsTheStatesOfAllPartsAndNoMore) {
 
 TEST(MakeCandidateGrid, windowsAreRoundedToWholeCells) {
   const auto cells = [](double side, int step) {
-    return makeCandidateGrid({{50, 50}}, side, step, 10.0).lattice.window_cells;
+    return gridAround({{50, 50}}, side, step, 10.0).lattice.window_cells;
   };
   EXPECT_EQ(20, cells(20.4, 1));
   EXPECT_EQ(5, cells(20.4, 4));
@@ -123,7 +124,7 @@ TEST_P(PartCostsOfChannel, equalTheBhattacharyyaDistanceOfCountedPixels) {
       const std::vector<cv::Point2d> centers = {{20, 21}, {36, 24}, {66, 40}, {-30, 10}};
       const double side = 13.0;
       const double weight = 3.5;
-      const CandidateGrid grid = makeCandidateGrid(centers, side, step, 7.0);
+      const CandidateGrid grid = gridAround(centers, side, step, 7.0);
       SCOPED_TRACE(textOf(grid));
       std::vector<RootHistogram> parts;
       for (const cv::Point2d& center : centers) {
@@ -167,7 +168,7 @@ TEST(ComputePartCosts, nothingInCommonCostsTheWholeWeight) {
   FramePixels pixels(palette, image);
   ASSERT_EQ(2, palette.size());
   const RootHistogram only_other = {1.0F, 0.0F};
-  const CandidateGrid grid = makeCandidateGrid({{15, 15}}, 8.0, 2, 4.0);
+  const CandidateGrid grid = gridAround({{15, 15}}, 8.0, 2, 4.0);
   std::vector<cv::Mat1f> costs;
   PartCostsWorkspace workspace;
   computePartCosts(pixels, Channel::kColors, {only_other}, grid, 6.0, costs, workspace);
@@ -179,7 +180,7 @@ TEST(ComputePartCosts, partIsCheapestWhereItWasLearned) {
   const cv::Mat image = texture(random, {80, 80}, CV_8UC3);
   const ColorPalette palette = somePalette(image);
   FramePixels pixels(palette, image);
-  const CandidateGrid grid = makeCandidateGrid({{40, 40}}, 15.0, 1, 20.0);
+  const CandidateGrid grid = gridAround({{40, 40}}, 15.0, 1, 20.0);
   const cv::Point learned_state(27, 13);
   const RootHistogram part =
       learnPart(pixels, Channel::kColors, grid.positionOf(0, cv::Point2d(learned_state)), 15.0);
@@ -199,8 +200,8 @@ TEST(ComputePartCosts, workspaceOfAnotherGridLeavesNoTrace) {
   const RootHistogram part = learnPart(pixels, Channel::kColors, {30, 30}, 12.0);
   std::vector<cv::Mat1f> reused;
   PartCostsWorkspace workspace;
-  const std::vector<CandidateGrid> grids = {makeCandidateGrid({{30, 30}, {40, 20}}, 12.0, 1, 9.0),
-                                            makeCandidateGrid({{12, 50}}, 12.0, 3, 5.0)};
+  const std::vector<CandidateGrid> grids = {gridAround({{30, 30}, {40, 20}}, 12.0, 1, 9.0),
+                                            gridAround({{12, 50}}, 12.0, 3, 5.0)};
   for (const CandidateGrid& grid : grids) {
     SCOPED_TRACE(textOf(grid));
     const std::vector<RootHistogram> parts(grid.corners.size(), part);

@@ -13,10 +13,17 @@
 namespace chain_tracker {
 namespace {
 
+std::vector<double> rested(const std::vector<double>& before, const std::vector<bool>& is_hidden,
+                           const std::vector<double>& turns) {
+  std::vector<double> rest;
+  restDirections(before, is_hidden, turns, rest);
+  return rest;
+}
+
 /// The directions after so many frames in which nothing else moves the chain.
 std::vector<double> settled(std::vector<double> directions, const std::vector<bool>& is_hidden,
                             const std::vector<double>& turns, int frames = 200) {
-  for (int i = 0; i < frames; ++i) directions = restDirections(directions, is_hidden, turns);
+  for (int i = 0; i < frames; ++i) directions = rested(directions, is_hidden, turns);
   return directions;
 }
 
@@ -31,12 +38,12 @@ const std::vector<double> kNoTurns(5, 0.0);
 
 TEST(RestDirections, whatIsSeenRestsAsItWas) {
   const std::vector<double> before = {0.1, -3.0, 3.0, 1.0, 0.2};
-  EXPECT_EQ(before, restDirections(before, std::vector<bool>(5, false), kNoTurns));
+  EXPECT_EQ(before, rested(before, std::vector<bool>(5, false), kNoTurns));
 }
 
 TEST(RestDirections, whatIsHiddenAllAlongRestsAsItWas) {
   const std::vector<double> before = {0.1, -3.0, 3.0, 1.0, 0.2};
-  EXPECT_EQ(before, restDirections(before, std::vector<bool>(5, true), kNoTurns));
+  EXPECT_EQ(before, rested(before, std::vector<bool>(5, true), kNoTurns));
 }
 
 TEST(RestDirections, aHiddenStretchComesToTurnEvenly) {
@@ -66,7 +73,7 @@ TEST(RestDirections, turnsAreTakenUp) {
 
 TEST(RestDirections, oneFrameLeavesMostOfTheShape) {
   const std::vector<double> rest =
-      restDirections({0.0, 1.0, 0.0, 0.0, 0.0}, {false, true, false, false, false}, kNoTurns);
+      rested({0.0, 1.0, 0.0, 0.0, 0.0}, {false, true, false, false, false}, kNoTurns);
   EXPECT_GT(rest[1], 0.5);
   EXPECT_LT(rest[1], 1.0);
 }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "chain_tracker/chain/chain_model.h"
+#include "support/lattice_candidates.h"
 #include "support/random_inputs.h"
 
 namespace chain_tracker {
@@ -24,7 +25,7 @@ TEST(PlaceCandidates, nodesLieWhereTheGridHasThem) {
     for (const PartLayout& part : segment.parts) {
       centers.push_back(segment.image_from_segment.apply(part.position));
     }
-    const CandidateGrid grid = makeCandidateGrid(centers, 12.0, 3, 20.0);
+    const CandidateGrid grid = gridAround(centers, 12.0, 3, 20.0);
     const cv::Point2d end(130.0, 50.0);
     placeCandidates(segment, grid, end, candidates);
     const size_t joint = segment.entry ? 1 : 0;

@@ -38,6 +38,12 @@ std::vector<PartState> partsAt(const SegmentLayout& segment, const Similarity& p
   return parts;
 }
 
+Similarity fitted(const SegmentLayout& segment, const PoseGrid& poses,
+                  const std::vector<PartState>& parts) {
+  SegmentFitWorkspace workspace;
+  return fitSegment(segment, poses, parts, workspace);
+}
+
 void expectNear(const Similarity& expected, const Similarity& actual, double tolerance = 1e-6) {
   EXPECT_NEAR(expected.angle, actual.angle, tolerance);
   EXPECT_NEAR(expected.scale, actual.scale, tolerance);
@@ -47,12 +53,12 @@ void expectNear(const Similarity& expected, const Similarity& actual, double tol
 TEST(FitSegment, isExactWithinHalfAStep) {
   const SegmentLayout segment = planarSegment();
   const Similarity pose{-0.03, 1.015, {123.0, 45.0}};
-  expectNear(pose, fitSegment(segment, kPoses, partsAt(segment, pose)));
+  expectNear(pose, fitted(segment, kPoses, partsAt(segment, pose)));
 }
 
 TEST(FitSegment, stopsAtHalfAStep) {
   const SegmentLayout segment = planarSegment();
-  const Similarity fit = fitSegment(segment, kPoses, partsAt(segment, {0.3, 0.8, {123.0, 45.0}}));
+  const Similarity fit = fitted(segment, kPoses, partsAt(segment, {0.3, 0.8, {123.0, 45.0}}));
   EXPECT_NEAR(0.05, fit.angle, 1e-9);
   EXPECT_NEAR(std::exp(-0.02), fit.scale, 1e-9);
 }
@@ -63,7 +69,7 @@ TEST(FitSegment, heedsTheBulkOfTheParts) {
   std::vector<PartState> parts = partsAt(segment, pose);
   parts[0].position += cv::Point2d(40.0, 10.0);
   parts[1].position += cv::Point2d(35.0, 10.0);
-  expectNear(pose, fitSegment(segment, kPoses, parts), 0.01);
+  expectNear(pose, fitted(segment, kPoses, parts), 0.01);
 }
 
 TEST(FitSegment, heedsPartsByTheirConfidence) {
@@ -74,7 +80,7 @@ TEST(FitSegment, heedsPartsByTheirConfidence) {
     parts[k].confidence = 0.0;
     parts[k].position.y += 6.0;
   }
-  EXPECT_NEAR(4.0, fitSegment(segment, kPoses, parts).apply(segment.parts.back().position).y, 0.1);
+  EXPECT_NEAR(4.0, fitted(segment, kPoses, parts).apply(segment.parts.back().position).y, 0.1);
 }
 
 TEST(FitSegment, isDefinedWhereNoPartIsSure) {
@@ -82,7 +88,7 @@ TEST(FitSegment, isDefinedWhereNoPartIsSure) {
   const Similarity pose{0.01, 1.0, {20.0, 30.0}};
   std::vector<PartState> parts = partsAt(segment, pose);
   for (PartState& part : parts) part.confidence = 0.0;
-  expectNear(pose, fitSegment(segment, kPoses, parts));
+  expectNear(pose, fitted(segment, kPoses, parts));
 }
 
 /// A single scale is searched; the parts lie `scale` as far apart, with that variance [px^2].
@@ -91,7 +97,7 @@ double scaleOfParts(double scale, double variance) {
   const PoseGrid poses{{0.0, scale}, 3, 0.1, 1, 0.5};
   std::vector<PartState> parts = partsAt(segment, {0.0, scale, {123.0, 45.0}});
   for (PartState& part : parts) part.covariance = variance * cv::Matx22d::eye();
-  return fitSegment(segment, poses, parts).scale;
+  return fitted(segment, poses, parts).scale;
 }
 
 TEST(FitSegment, keepsTheScaleThatThePartsTell) {
@@ -121,7 +127,7 @@ TEST(FitSegment, leavesTheScaleToTheSearchThatTriesSeveral) {
   const Similarity pose{0.0, 1.01, {123.0, 45.0}};
   std::vector<PartState> parts = partsAt(segment, pose);
   for (PartState& part : parts) part.covariance = 1e7 * cv::Matx22d::eye();
-  expectNear(pose, fitSegment(segment, kPoses, parts));
+  expectNear(pose, fitted(segment, kPoses, parts));
 }
 
 TEST(FitSegment, whatCoilsUpKeepsItsScale) {
@@ -133,7 +139,7 @@ TEST(FitSegment, whatCoilsUpKeepsItsScale) {
     parts[k].position =
         parts[k - 1].position + step * cv::Point2d(std::cos(direction), std::sin(direction));
   }
-  EXPECT_NEAR(1.0, fitSegment(segment, kPoses, parts).scale, 1e-6);
+  EXPECT_NEAR(1.0, fitted(segment, kPoses, parts).scale, 1e-6);
 }
 
 }  // namespace

@@ -26,6 +26,11 @@ struct Correspondences {
     return cost;
   }
   Similarity fit() const { return fitSimilarity(from, to, weights); }
+  std::vector<double> robustWeights(double tolerance) const {
+    std::vector<double> robust;
+    chain_tracker::robustWeights(from, to, weights, tolerance, robust);
+    return robust;
+  }
 };
 
 /// Points moved by the transform and then by up to `noise` [px].
@@ -169,7 +174,7 @@ TEST(FitSimilarity, onePointOnlyMoves) {
 TEST(RobustWeights, areTheGivenOnesWhereEverythingFits) {
   RandomInputs random(10);
   const Correspondences points = movedPoints(random, someTransform(random), 0.0);
-  const std::vector<double> robust = robustWeights(points.from, points.to, points.weights, 5.0);
+  const std::vector<double> robust = points.robustWeights(5.0);
   for (size_t k = 0; k < robust.size(); ++k) EXPECT_NEAR(points.weights[k], robust[k], 1e-9);
 }
 
@@ -183,7 +188,7 @@ TEST(RobustWeights, letTheFitHeedTheBulkOfThePoints) {
     points.weights.assign(points.from.size(), 1.0);
     for (size_t k = 0; k < 3; ++k) points.to[k] += cv::Point2d(30.0, 0.0);
     const double before = cv::norm(points.fit().translation);
-    points.weights = robustWeights(points.from, points.to, points.weights, 8.0);
+    points.weights = points.robustWeights(8.0);
     EXPECT_LT(cv::norm(points.fit().translation), 0.5 * before);
     for (size_t k = 0; k < 3; ++k) EXPECT_LT(points.weights[k], 0.25);
   }
@@ -193,7 +198,7 @@ TEST(RobustWeights, followFromTheErrorsOfTheirOwnFit) {
   RandomInputs random(12);
   Correspondences points = movedPoints(random, someTransform(random), 3.0);
   const std::vector<double> given = points.weights;
-  points.weights = robustWeights(points.from, points.to, given, 6.0);
+  points.weights = points.robustWeights(6.0);
   const Similarity fit = points.fit();
   for (size_t k = 0; k < given.size(); ++k) {
     const double error = cv::norm(points.to[k] - fit.apply(points.from[k])) / 6.0;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/lattice_candidates.h"
 #include "support/random_inputs.h"
 
 namespace chain_tracker {
@@ -22,7 +23,7 @@ TEST(AddTextureCosts, addHalfTheWeightedDistance) {
   FramePixels pixels(palette, image);
   const std::vector<WindowTexture> parts = {{0.5F, -0.3F, 0.1F}, {0.0F, 0.0F, 0.0F}};
   for (int step : {1, 2}) {
-    const CandidateGrid grid = makeCandidateGrid({{30, 30}, {52, 41}}, 12.0, step, 6.0);
+    const CandidateGrid grid = gridAround({{30, 30}, {52, 41}}, 12.0, step, 6.0);
     const double weight = 3.0;
     std::vector<cv::Mat1f> costs = random.costMaps(2, grid.states);
     std::vector<cv::Mat1f> before = {costs[0].clone(), costs[1].clone()};
@@ -53,7 +54,7 @@ TEST(AddTextureCosts, areNothingAtTheWeightNought) {
   const cv::Mat image = random.noise({90, 70}, CV_8UC1);
   const ColorPalette palette = onlyPalette(image);
   FramePixels pixels(palette, image);
-  const CandidateGrid grid = makeCandidateGrid({{30, 30}}, 12.0, 2, 6.0);
+  const CandidateGrid grid = gridAround({{30, 30}}, 12.0, 2, 6.0);
   std::vector<cv::Mat1f> costs = random.costMaps(1, grid.states);
   const cv::Mat1f before = costs[0].clone();
   TextureCostsWorkspace workspace;

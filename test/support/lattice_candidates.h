@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// The candidates of a segment without joints, as its grid says.
+/// Candidates of parts on a lattice.
 #pragma once
 
 #include <vector>
@@ -9,6 +9,15 @@
 
 namespace chain_tracker {
 
+/// As placeCandidateGrid() has it.
+inline CandidateGrid gridAround(const std::vector<cv::Point2d>& centers, double side, int step,
+                                double radius) {
+  CandidateGrid grid;
+  placeCandidateGrid(centers, side, step, radius, grid);
+  return grid;
+}
+
+/// Of a segment without joints, as its grid says.
 inline SegmentCandidates candidatesOn(const CandidateGrid& grid,
                                       const std::vector<cv::Mat1f>& costs) {
   SegmentCandidates candidates{grid.lattice.step, grid.states, {}, costs};

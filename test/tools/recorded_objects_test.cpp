@@ -10,7 +10,7 @@
 #include <rosbag/bag.h>
 
 #include "chain_tracker/TrackedObjectArray.h"
-#include "chain_tracker/chain/carried_shape.h"
+#include "chain_tracker/chain/object_shape.h"
 #include "chain_tracker/chain/chain_layout.h"
 #include "chain_tracker/ros/msg_conversion.h"
 #include "support/refusal.h"
@@ -37,11 +37,8 @@ ChainState stateOf(const SegmentLayout& layout, const Similarity& pose, Tracking
     moved.visible = true;
     state.parts.push_back(moved);
   }
-  const CarriedShape shape(layout);
-  state.points = shape.points(segment, state.parts);
-  state.outline = shape.outline(segment, state.parts);
-  state.box = shape.box(segment, state.parts);
   state.segments = {segment};
+  ObjectShape({layout}).carry(state);
   return state;
 }
 

@@ -45,10 +45,10 @@ struct ChainMatch {
 /// [segment][pose]: a map over the states of a node.
 using PoseMaps = std::vector<std::vector<cv::Mat1f>>;
 
-/// Kept from call to call so that no memory is allocated for maps once sizes have settled.
+/// Kept from call to call so that no memory is allocated once sizes have settled.
 struct ChainMatcherWorkspace {
-  ChainSolverWorkspace solver;
-  std::vector<cv::Mat1f> best_forward;  ///< solver.forward of an earlier pass
+  std::vector<ChainSolverWorkspace> solvers;  ///< of the segments
+  std::vector<cv::Mat1f> best_forward;        ///< solvers.back().forward of an earlier pass
   EdgeSampler sampler;
   ChainEdges edges;
   ChainEdges best_edges;
@@ -59,10 +59,12 @@ struct ChainMatcherWorkspace {
   PoseMaps into;                 ///< messages to the segment from the one before
   PoseMaps from;                 ///< messages to the segment from the one behind
   cv::Mat1f sum;
+  ChainMatch match;
 };
 
-/// The chain and the poses of least energy, temporal and joint costs included.
+/// The chain and the poses of least energy, temporal and joint costs included; valid until the
+/// workspace is used again.
 /// O(parts x poses x states x offsets of a stencil), and O(states x poses^2) at a limited joint.
-ChainMatch matchChain(const MatchingProblem& problem, ChainMatcherWorkspace& workspace);
+const ChainMatch& matchChain(const MatchingProblem& problem, ChainMatcherWorkspace& workspace);
 
 }  // namespace chain_tracker

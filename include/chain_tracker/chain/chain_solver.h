@@ -34,10 +34,10 @@ double forwardPass(const std::vector<cv::Mat1f>& unary, const ChainEdges& edges,
 /// The state of least cost; the first one in row-major order among equals.
 cv::Point cheapestState(const cv::Mat1f& map);
 
-/// States (x column, y row) of the best chain whose last part is in state `end`, from
-/// workspace.forward as forwardPass() left it. The cost of that state must be finite.
-std::vector<cv::Point> traceBack(const ChainEdges& edges, const cv::Point& end,
-                                 const ChainSolverWorkspace& workspace);
+/// `states` become those (x column, y row) of the best chain whose last part is in state `end`,
+/// from workspace.forward as forwardPass() left it. The cost of that state must be finite.
+void traceBack(const ChainEdges& edges, const cv::Point& end, const ChainSolverWorkspace& workspace,
+               std::vector<cv::Point>& states);
 
 /// marginals[k](q): the cost of the best chain that has part k in state q. Needs
 /// workspace.forward.

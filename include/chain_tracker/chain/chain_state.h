@@ -2,6 +2,7 @@
 /// What the tracker knows about an object after a frame.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,24 @@ struct ChainState {
   std::vector<cv::Point2d> outline;  ///< see CarriedShape::outline() and ObjectShape::carry() [px]
   cv::Rect2d box;                    ///< upright [px]; see the same
   StepTimes times;
+};
+
+/// The parts of a segment, where a state or a vector holds them; it must live as long.
+class SegmentParts {
+ public:
+  SegmentParts(const ChainState& state, const SegmentState& segment)
+      : first_(state.parts.data() + segment.first_part),
+        count_(static_cast<size_t>(segment.part_count)) {}
+  SegmentParts(const std::vector<PartState>& parts) : first_(parts.data()), count_(parts.size()) {}
+
+  const PartState* begin() const { return first_; }
+  const PartState* end() const { return first_ + count_; }
+  size_t size() const { return count_; }
+  const PartState& operator[](size_t k) const { return first_[k]; }
+
+ private:
+  const PartState* first_;
+  size_t count_;
 };
 
 /// The pose of the whole: the mean over the segments, of which there must be one, weighted by their

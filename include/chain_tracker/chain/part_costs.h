@@ -43,10 +43,10 @@ struct CandidateGrid {
   cv::Point2d originAround(const cv::Point2d& center) const;
 };
 
-/// Grid whose middle states lie nearest to `centers`, reaching at least `radius` [px] around them.
-/// `side`: of the windows [px], rounded to whole cells of `step` pixels.
-CandidateGrid makeCandidateGrid(const std::vector<cv::Point2d>& centers, double side, int step,
-                                double radius);
+/// Makes the grid's middle states lie nearest to `centers`, and all of them reach at least `radius`
+/// [px] around these. `side`: of the windows [px], rounded to whole cells of `step` pixels.
+void placeCandidateGrid(const std::vector<cv::Point2d>& centers, double side, int step,
+                        double radius, CandidateGrid& grid);
 
 /// Kept from call to call so that no memory is allocated once sizes have settled.
 struct PartCostsWorkspace {

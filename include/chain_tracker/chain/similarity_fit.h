@@ -17,12 +17,13 @@ namespace chain_tracker {
 Similarity fitSimilarity(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2d>& to,
                          const std::vector<double>& weights);
 
-/// The weights with which fitSimilarity() heeds the bulk of the points: of a point that lies an
-/// error e off that fit, the given one over (1 + (e / tolerance)^2)^2 (iteratively reweighted least
-/// squares with the estimator of Geman and McClure 1985). `tolerance` > 0 [px]. O(points).
-std::vector<double> robustWeights(const std::vector<cv::Point2d>& from,
-                                  const std::vector<cv::Point2d>& to,
-                                  const std::vector<double>& weights, double tolerance);
+/// `robust` becomes the weights with which fitSimilarity() heeds the bulk of the points: of a point
+/// that lies an error e off that fit, the given one over (1 + (e / tolerance)^2)^2 (iteratively
+/// reweighted least squares with the estimator of Geman and McClure 1985). `tolerance` > 0 [px].
+/// O(points).
+void robustWeights(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2d>& to,
+                   const std::vector<double>& weights, double tolerance,
+                   std::vector<double>& robust);
 
 /// The translation that fits best for a given angle and scale.
 cv::Point2d fitTranslation(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2d>& to,

@@ -37,7 +37,7 @@ class EdgeDirections {
 
   /// The gradients, {right, down}, of a region whose neededFor() is `grey`. The planes live until
   /// the next call. O(pixels).
-  std::vector<cv::Mat1i> gradients(const cv::Mat1b& grey);
+  const std::vector<cv::Mat1i>& gradients(const cv::Mat1b& grey);
 
   /// The codes of that region, written to `codes`, which has its size.
   void compute(const cv::Mat1b& grey, cv::Mat1b& codes);
@@ -45,6 +45,7 @@ class EdgeDirections {
  private:
   std::unique_ptr<ResizableExecutor> executor_;
   std::vector<cv::Mat1i> responses_;
+  std::vector<cv::Mat1i> gradients_;  ///< the inner parts of those
 };
 
 }  // namespace chain_tracker
