@@ -30,6 +30,15 @@ const PartAppearance& AppearanceCosts::lookOf(const ChainState& state, size_t pa
   return learned_.part(part, wrapAngle(turned + turn));
 }
 
+void AppearanceCosts::show(const cv::Mat& image, SearchLight light) {
+  shown_ = light;
+  pixels_.show(image, light == SearchLight::kLatest ? light_.gains() : ChannelGains());
+}
+
+void AppearanceCosts::keepLight() {
+  if (shown_ == SearchLight::kFirst) light_ = LightChange(model_.light_rate);
+}
+
 void AppearanceCosts::observeLight(const ChainState& state) {
   if (model_.light_rate == 0.0) return;
   learned_colors_.clear();

@@ -23,6 +23,10 @@ namespace chain_tracker {
 /// tells to a fraction of a pixel where a window lies.
 enum class SearchStage { kCoarse, kFine };
 
+/// The light that parts are looked for in: as they were last seen in it, or that of the first
+/// frame.
+enum class SearchLight { kLatest, kFirst };
+
 /// Of the parts of a segment, one map of its candidates each.
 struct SegmentCosts {
   std::vector<cv::Mat1f> parts;  ///< all that the stage looks at
@@ -42,8 +46,12 @@ class AppearanceCosts {
   const PartAppearance& lookOf(const ChainState& state, size_t part, double turn = 0.0);
 
   /// The image that is looked at from now on; it must live as long.
-  void show(const cv::Mat& image) { pixels_.show(image, light_.gains()); }
+  void show(const cv::Mat& image, SearchLight light = SearchLight::kLatest);
   FramePixels& pixels() { return pixels_; }
+
+  /// To be called where the object was found in the image: the light in which it was shows from now
+  /// on.
+  void keepLight();
 
   /// Takes in how the light on the object has changed, if it is where `state` has it.
   void observeLight(const ChainState& state);
@@ -68,6 +76,7 @@ class AppearanceCosts {
   ObjectAppearance learned_;
   std::vector<double> initial_orientations_;  // of the parts
   LightChange light_;
+  SearchLight shown_ = SearchLight::kLatest;
   FramePixels pixels_;
   std::vector<ObjectColor> learned_colors_;  // of the parts that are seen
   std::vector<ObjectColor> seen_colors_;

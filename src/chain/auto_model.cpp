@@ -42,8 +42,12 @@ bool isSharpEverywhere(const std::vector<cv::Point2d>& points) {
   return true;
 }
 
-bool isGrid(const SegmentModel& segment) {
-  return segment.layout == Layout::kElongated || segment.layout == Layout::kPlanar;
+double lengthOf(const std::vector<cv::Point2d>& polyline) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    length += cv::norm(polyline[i] - polyline[i - 1]);
+  }
+  return length;
 }
 
 /// Takes a part from every grid whose parts are too small; returns whether there was one.
@@ -52,7 +56,7 @@ bool takeCrowdedParts(ChainModel& model, const std::vector<cv::Point2d>& points)
   bool was_crowded = false;
   for (std::size_t m = 0; m < model.segments.size(); ++m) {
     SegmentModel& segment = model.segments[m];
-    if (!isGrid(segment) || segment.parts <= kFewestCells) continue;
+    if (!isGrid(segment.layout) || segment.parts <= kFewestCells) continue;
     if (layout.segments[m].parts.front().side >= kSmallestSide) continue;
     --segment.parts;
     was_crowded = true;
@@ -69,11 +73,12 @@ std::string autoModelName(const std::vector<cv::Point2d>& points) {
 }
 
 ChainModel withRoomForParts(const ChainModel& model, const std::vector<cv::Point2d>& points) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += cv::norm(points[i] - points[i - 1]);
   ChainModel roomy = forPolyline(model, points.size());
-  for (SegmentModel& segment : roomy.segments) {
+  for (std::size_t m = 0; m < roomy.segments.size(); ++m) {
+    SegmentModel& segment = roomy.segments[m];
     if (segment.layout != Layout::kDeformable) continue;
+    const double length =
+        roomy.segments.size() > 1 ? cv::norm(points[m + 1] - points[m]) : lengthOf(points);
     const double room = std::max<double>(kFewestParts, length * segment.window / kNarrowestWindow);
     if (room < segment.parts) segment.parts = static_cast<int>(room);
   }

@@ -93,14 +93,14 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       middles_(layout.segments.size()),
       centers_(layout.segments.size()) {
   for (const SegmentLayout& segment : layout_) {
-    const bool is_grid = segment.layout == Layout::kElongated || segment.layout == Layout::kPlanar;
     variance_shares_.insert(variance_shares_.end(), segment.parts.size(),
-                            is_grid ? kCellVariance : 1.0);
+                            isGrid(segment.layout) ? kCellVariance : 1.0);
   }
 }
 
 void ChainSearch::observe(const FoundChain& found) {
   expectations_.observe(found.state.parts, found.likeness);
+  appearance_.keepLight();
   const bool tells_light = found.likeness >= kTellsLight * expectations_.usualLikeness();
   if (tells_light) appearance_.observeLight(found.state);
 }

@@ -50,7 +50,7 @@ class ChainSearch {
   void observe(const FoundChain& found);
 
   /// The image in which find() looks from now on; it must live as long.
-  void show(const cv::Mat& image) { appearance_.show(image); }
+  void show(const cv::Mat& image, SearchLight light) { appearance_.show(image, light); }
 
   /// `found` becomes `sought` moved to the best chain: parts, poses, confidence, energy and times;
   /// its status, outline and points are those of `sought`. Confidence 0 if the springs allow no

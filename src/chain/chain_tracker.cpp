@@ -58,7 +58,7 @@ class ChainTracker::Implementation {
 
   const ChainState& update(const cv::Mat& image) {
     requireSameKind(image, image_size_, image_type_);
-    search_.show(image);
+    search_.show(image, searchLight());
     times_ = StepTimes();
     if (state_.status == TrackingStatus::kLost) {
       found_ = look(1 + frames_lost_);
@@ -112,6 +112,12 @@ class ChainTracker::Implementation {
     state.confidence = 1.0;
     shape_.carry(state);
     return state;
+  }
+
+  /// Nothing tells how the light changes on what is not seen. Two frames each, so that both kinds
+  /// of look() see it in either.
+  SearchLight searchLight() const {
+    return frames_lost_ / 2 % 2 == 1 ? SearchLight::kFirst : SearchLight::kLatest;
   }
 
   /// Of a search that has failed so often: twice as far every time.

@@ -23,7 +23,8 @@ bool canTell(const ObjectColor& learned, const ObjectColor& seen) {
   return learned.share >= kLeastShare && seen.share >= kLeastSeen * learned.share;
 }
 
-double medianOf(std::vector<double>& values) {
+/// Of an even number, the upper one in the middle.
+double upperMedianOf(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -41,7 +42,7 @@ void LightChange::observe(const std::vector<ObjectColor>& learned,
     }
     if (ratios_.size() < kFewestParts) return;
     double& gain = gains_[static_cast<size_t>(channel)];
-    gain += rate_ * (std::clamp(medianOf(ratios_), kLeastGain, kMostGain) - gain);
+    gain += rate_ * (std::clamp(upperMedianOf(ratios_), kLeastGain, kMostGain) - gain);
   }
 }
 

@@ -19,7 +19,8 @@ constexpr double kScaleSpread = 0.2;
 constexpr double kSmallestWeight = 1e-3;
 
 /// Length of the chain found over that of the reference. What coils up comes nearer to its middle
-/// without becoming shorter: a similarity would take that for a smaller scale.
+/// without becoming shorter: a similarity would take that for a smaller scale. 1 where the parts of
+/// the reference coincide, as two of a line that doubles back may.
 double lengthRatio(const std::vector<cv::Point2d>& reference, const std::vector<cv::Point2d>& found,
                    const std::vector<double>& weights) {
   double reference_length = 0.0;
@@ -29,7 +30,7 @@ double lengthRatio(const std::vector<cv::Point2d>& reference, const std::vector<
     reference_length += weight * cv::norm(reference[k] - reference[k - 1]);
     found_length += weight * cv::norm(found[k] - found[k - 1]);
   }
-  return found_length / reference_length;
+  return reference_length > 0.0 ? found_length / reference_length : 1.0;
 }
 
 /// Inverse variance of the log scale in a fit of parts whose errors are independent.

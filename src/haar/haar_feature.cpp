@@ -39,15 +39,6 @@ cv::Rect HaarFeature::bounds() const {
   return box;
 }
 
-cv::Rect validRegion(const HaarFeature& feature, const cv::Size& image) {
-  const cv::Rect box = feature.bounds();
-  const cv::Point low(std::max(0, -box.x), std::max(0, -box.y));
-  const cv::Point high(std::min(image.width, image.width - box.br().x + 1),
-                       std::min(image.height, image.height - box.br().y + 1));
-  if (high.x <= low.x || high.y <= low.y) return {};
-  return {low, high};
-}
-
 std::string faultOf(const HaarFeature& feature) {
   if (feature.name.empty()) return "a feature has no name";
   const std::string place = "feature '" + feature.name + "': ";

@@ -67,18 +67,6 @@ cv::Point SparseKernel::maxDelay() const {
   return high;
 }
 
-std::int64_t SparseKernel::positiveSum() const {
-  std::int64_t sum = 0;
-  for (const KernelTap& tap : taps_) sum += std::max<std::int64_t>(0, tap.weight);
-  return sum;
-}
-
-std::int64_t SparseKernel::negativeSum() const {
-  std::int64_t sum = 0;
-  for (const KernelTap& tap : taps_) sum += std::min<std::int64_t>(0, tap.weight);
-  return sum;
-}
-
 SparseKernel SparseKernel::shifted(const cv::Point& delay) const {
   SparseKernel result = *this;
   for (KernelTap& tap : result.taps_) {

@@ -54,6 +54,14 @@ TEST(WithRoomForParts, keepsPartsOfEachLinkLargeEnough) {
   EXPECT_TRUE(havePartsRoom(layOut(fewer, joints), {320, 240}));
 }
 
+TEST(WithRoomForParts, givesEachDeformableLinkThePartsOfItsOwnLength) {
+  ChainModel model = cable(20);
+  model.segment_per_edge = true;
+  const ChainModel roomy = withRoomForParts(model, {{0, 0}, {60, 0}, {60, 200}});
+  EXPECT_EQ(12, roomy.segments[0].parts) << "60 px * 1.2 / 6 px";
+  EXPECT_EQ(20, roomy.segments[1].parts);
+}
+
 TEST(AutoModel, TwoEndsAreABottle) { EXPECT_EQ(autoModelName({{10, 10}, {10, 90}}), "bottle"); }
 
 TEST(AutoModel, FourCornersAreABox) {

@@ -93,6 +93,25 @@ TEST(ChainTrackerLoss, boxShownAgainElsewhereIsFound) {
   }
 }
 
+/// While nothing is seen of the object, nothing tells that its light is as at first again.
+TEST(ChainTrackerLoss, boxShownAgainInTheLightOfTheFirstFrameIsFound) {
+  const DrawnBox box;
+  ChainTracker tracker = startTracker(box);
+  double light = 1.0;
+  for (int frame = 0; frame < 40; ++frame) {
+    light = std::max(0.5, light - 0.02);
+    tracker.update(light * box.image(kStart));
+  }
+  ASSERT_EQ(TrackingStatus::kTracking, tracker.state().status);
+  for (int frame = 0; frame < 6; ++frame) tracker.update(light * box.background());
+  ASSERT_EQ(TrackingStatus::kLost, tracker.state().status);
+  framesUntil(tracker, box.image(kStart), TrackingStatus::kTracking, 4);
+  // It is followed in that light.
+  for (int frame = 0; frame < 10; ++frame) tracker.update(box.image(kStart));
+  EXPECT_GT(tracker.state().confidence, 0.9);
+  EXPECT_LT(largestError(tracker.state(), kStart), 3.0);
+}
+
 /// The box in one of three images side by side, or in none of them.
 cv::Mat wideImage(const DrawnBox& box, int place) {
   std::vector<cv::Mat> images(3, box.background());

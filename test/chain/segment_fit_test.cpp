@@ -142,5 +142,14 @@ TEST(FitSegment, whatCoilsUpKeepsItsScale) {
   EXPECT_NEAR(1.0, fitted(segment, kPoses, parts).scale, 1e-6);
 }
 
+/// As two parts of a line that doubles back to where it began.
+TEST(FitSegment, keepsTheScaleOfPartsThatCoincide) {
+  SegmentLayout segment = deformableSegment();
+  segment.parts.resize(2);
+  segment.parts[1] = segment.parts[0];
+  const Similarity pose{0.0, 1.0, {50.0, 50.0}};
+  EXPECT_EQ(1.0, fitted(segment, kPoses, partsAt(segment, pose)).scale);
+}
+
 }  // namespace
 }  // namespace chain_tracker

@@ -136,6 +136,12 @@ TEST(RequireContrast, passesWhatHasAnOutline) {
   EXPECT_EQ("", refusalOf([&] { requireContrast(image, box(-10, 30, 99, 19)); }));
 }
 
+TEST(RequireContrast, passesAFlatTargetBesideWhichSomethingIs) {
+  cv::Mat1b image(80, 100, static_cast<uchar>(3));
+  image(40, 57) = 200;
+  EXPECT_EQ("", refusalOf([&] { requireContrast(image, box(30, 30, 19, 19)); }));
+}
+
 TEST(RequireContrast, refusesWhereNothingIsToBeSeen) {
   cv::Mat1b image(80, 100, static_cast<uchar>(3));
   image(5, 5) = 200;

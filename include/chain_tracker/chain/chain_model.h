@@ -20,6 +20,11 @@ enum class Layout {
   kPoints,      ///< the points given, which keep their arrangement; not in a joined chain
 };
 
+/// Whether parts fill a rectangle.
+inline bool isGrid(Layout layout) {
+  return layout == Layout::kElongated || layout == Layout::kPlanar;
+}
+
 /// One segment: a chain of parts that turns and rescales as one (thesis ch. 3.2.2).
 struct SegmentModel {
   std::string name = "body";

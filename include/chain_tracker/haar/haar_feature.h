@@ -6,8 +6,8 @@
 ///                                                               y + r.y .. y + r.y + r.height - 1)
 ///
 /// Border convention of the whole front end: every pixel of the image has a response, and pixels
-/// outside the image count as zero. Where the feature lies inside the image entirely
-/// (validRegion()), the response does not depend on that convention.
+/// outside the image count as zero. Where the feature lies inside the image entirely, the response
+/// does not depend on that convention.
 #pragma once
 
 #include <string>
@@ -39,9 +39,6 @@ struct HaarFeature {
   /// The smallest box around all rectangles, relative to the pixel of the response.
   cv::Rect bounds() const;
 };
-
-/// The pixels of an image at which the feature lies inside the image; may be empty.
-cv::Rect validRegion(const HaarFeature& feature, const cv::Size& image);
 
 /// The reason why a feature cannot be used; empty if it can: it needs a name, 1 to kMaxRectangles
 /// rectangles of positive area within the limits above, and weights that are not zero.

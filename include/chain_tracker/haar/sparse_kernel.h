@@ -47,10 +47,6 @@ class SparseKernel {
   cv::Point minDelay() const;
   cv::Point maxDelay() const;
 
-  /// Sums of the positive weights and of the negative ones (<= 0).
-  std::int64_t positiveSum() const;
-  std::int64_t negativeSum() const;
-
   SparseKernel shifted(const cv::Point& delay) const;
   SparseKernel scaled(std::int64_t factor) const;
   SparseKernel operator*(const SparseKernel& other) const;
