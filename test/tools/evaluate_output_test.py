@@ -77,6 +77,16 @@ class Output(ProgramTest):
         for word in ("chain_tracker", "kcf", "camshift", "Curves", "Over time", "Worst frames"):
             self.assertTrue(word in report, word)
 
+    def test_a_full_disk_is_told(self):
+        for name in TABLES + ("summary.json",):
+            out = self.folder / f"full_{name}"
+            out.mkdir()
+            (out / name).symlink_to("/dev/full")
+            with self.subTest(name=name):
+                said = self.evaluate("--sequence", self.sequence, "--no-report", "--out", out,
+                                     code=2)
+                self.assertIn(f"{out / name} cannot be written", said)
+
     def test_a_lost_object_is_nowhere(self):
         leaving = self.render("leaving", "bottle", 60, "--leave-at", "40", "--leave-for", "15")
         out = self.folder / "of_leaving"
@@ -161,6 +171,32 @@ class Suite(ProgramTest):
         table = self.table(out)
         self.assertIn("groundtruth_rect.txt:1", table["box"][0])
         self.assertGreater(float(table["bottle"][2]), 0.5)
+
+    def test_a_sequence_that_does_not_say_why_it_failed_is_not_done(self):
+        suite = self.folder / "silent_suite"
+        shutil.copytree(self.suite, suite)
+        (suite / "box/groundtruth_rect.txt").write_text("1,2,3\n")
+        out = self.folder / "silent"
+        (out / "box").mkdir(parents=True)
+        log = out / "box/log.txt"
+        log.symlink_to("/dev/null")
+        said = self.evaluate("--suite", suite, "--out", out, "--no-report", code=2)
+        self.assertIn(f"box: ended with code 2, see {log}", said)
+
+    def test_a_full_disk_is_told(self):
+        for name in ("suite.md", "suite.csv", "suite.json"):
+            out = self.folder / f"full_{name}"
+            out.mkdir()
+            (out / name).symlink_to("/dev/full")
+            with self.subTest(name=name):
+                said = self.evaluate("--suite", self.suite, "--out", out, "--no-report", code=2)
+                self.assertIn(f"{out / name} cannot be written", said)
+        out = self.folder / "full_scores"
+        (out / "box").mkdir(parents=True)
+        scores = out / "box/scores.csv"
+        scores.symlink_to("/dev/full")
+        said = self.evaluate("--suite", self.suite, "--out", out, "--no-report", code=2)
+        self.assertIn(f"{scores} cannot be written", said)
 
     def test_an_interrupted_suite_ends_as_a_whole(self):
         suite = self.folder / "long_suite"

@@ -2,13 +2,12 @@
 #include "evaluation_files.h"
 
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <limits>
 #include <sstream>
-#include <stdexcept>
 
 #include "result_files.h"
+#include "text_files.h"
 
 namespace chain_tracker {
 namespace {
@@ -16,12 +15,6 @@ namespace {
 using nlohmann::json;
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-
-std::ofstream openForWriting(const std::string& folder, const std::string& name) {
-  std::ofstream file(folder + "/" + name);
-  if (!file) throw std::runtime_error(folder + "/" + name + " cannot be written");
-  return file;
-}
 
 /// Of a lost object nothing is known but that it is lost.
 double known(const TrackedFrame& tracked, double value) {
@@ -73,9 +66,9 @@ PointRow pointRow(const EvaluatedFrame& frame, int index) {
 }
 
 void writeObjects(const TrackerRun& run, const std::string& folder) {
-  std::ofstream objects = openForWriting(folder, "objects.csv");
-  std::ofstream parts = openForWriting(folder, "parts.csv");
-  std::ofstream points = openForWriting(folder, "points.csv");
+  std::ostringstream objects;
+  std::ostringstream parts;
+  std::ostringstream points;
   objects << kObjectHeader << "\n";
   parts << kPartHeader << "\n";
   points << kPointHeader << "\n";
@@ -89,6 +82,9 @@ void writeObjects(const TrackerRun& run, const std::string& folder) {
       points << toCsv(pointRow(frame, k)) << "\n";
     }
   }
+  writeText(folder + "/objects.csv", objects.str());
+  writeText(folder + "/parts.csv", parts.str());
+  writeText(folder + "/points.csv", points.str());
 }
 
 /// Empty where a frame has no truth or the tracker no answer.
@@ -100,17 +96,18 @@ std::string cell(bool known, double value) {
 }
 
 void writeScores(const EvaluationResult& result, const std::string& folder) {
-  std::ofstream file = openForWriting(folder, "scores.csv");
-  file << "tracker,frame,lost,iou,center_error_px,part_error_px\n";
+  std::ostringstream table;
+  table << "tracker,frame,lost,iou,center_error_px,part_error_px\n";
   for (const TrackerRun& run : result.runs) {
     for (const EvaluatedFrame& frame : run.frames) {
       const FrameScore& score = frame.score;
-      file << run.name << "," << frame.index << "," << (score.lost ? 1 : 0) << ","
-           << cell(score.has_object, score.overlap) << ","
-           << cell(score.has_object, score.center_error) << ","
-           << cell(!score.point_errors.empty(), mean(score.point_errors)) << "\n";
+      table << run.name << "," << frame.index << "," << (score.lost ? 1 : 0) << ","
+            << cell(score.has_object, score.overlap) << ","
+            << cell(score.has_object, score.center_error) << ","
+            << cell(!score.point_errors.empty(), mean(score.point_errors)) << "\n";
     }
   }
+  writeText(folder + "/scores.csv", table.str());
 }
 
 void appendLine(const std::string& name, const json& scores, std::ostringstream& table) {
@@ -172,7 +169,7 @@ json summaryOf(const EvaluationResult& result, const std::string& sequence,
 void writeResults(const EvaluationResult& result, const json& summary, const std::string& folder) {
   writeObjects(result.runs.front(), folder);
   writeScores(result, folder);
-  openForWriting(folder, "summary.json") << summary.dump(2) << "\n";
+  writeText(folder + "/summary.json", summary.dump(2) + "\n");
 }
 
 std::string tableOf(const json& summary) {

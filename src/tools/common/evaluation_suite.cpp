@@ -16,6 +16,7 @@
 #include "chain_tracker/evaluation/ground_truth.h"
 #include "child_process.h"
 #include "evaluation_files.h"
+#include "text_files.h"
 
 namespace chain_tracker {
 namespace {
@@ -85,16 +86,17 @@ std::string lastLine(const std::string& path) {
   return last;
 }
 
-/// What the run wrote, if it came so far; null otherwise.
+/// What the run wrote, if it came so far; null otherwise, or if the disk held only some of it.
 json readSummary(const std::string& path) {
   std::ifstream file(path);
-  return file ? json::parse(file) : json(nullptr);
+  const json summary = json::parse(file, nullptr, false);
+  return summary.is_object() ? summary : json(nullptr);
 }
 
-/// Of a run that ended with this exit code.
+/// Of a run that ended with this exit code. Its log may be empty: the disk may be full.
 std::string faultOf(int code, const std::string& log) {
-  if (code == kBadInput) return lastLine(log);
-  return "ended with code " + std::to_string(code) + ", see " + log;
+  const std::string reason = code == kBadInput ? lastLine(log) : "";
+  return reason.empty() ? "ended with code " + std::to_string(code) + ", see " + log : reason;
 }
 
 void runEntry(const std::string& suite, const EvaluationJob& job,
@@ -201,11 +203,6 @@ json jsonOf(const std::vector<SuiteEntry>& entries) {
     if (!entry.fault.empty()) suite.back()["fault"] = entry.fault;
   }
   return suite;
-}
-
-void writeText(const std::string& path, const std::string& content) {
-  std::ofstream file(path);
-  if (!(file << content)) throw std::runtime_error(path + " cannot be written");
 }
 
 /// One line for each sequence that has ended, with the time that the others may take.
