@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -55,6 +56,13 @@ bool hasNan(const std::vector<double>& numbers) {
   return std::any_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); });
 }
 
+/// Not known is NaN; nothing lies at infinity.
+void refuseInfinite(const std::vector<double>& numbers, const std::string& line,
+                    const std::string& path, int number) {
+  if (std::none_of(numbers.begin(), numbers.end(), [](double x) { return std::isinf(x); })) return;
+  refuse(path, number, "'" + line + "' has an infinite number, must be finite or NaN");
+}
+
 constexpr int kHighestIndex = std::numeric_limits<int>::max();
 
 bool isIndex(double number) {
@@ -77,15 +85,38 @@ std::vector<cv::Point2d> cornersOf(const cv::Rect2d& box) {
   return {box.tl(), {high.x, box.y}, high, {box.x, high.y}};
 }
 
-std::vector<cv::Point2d> pointsIn(const YAML::Node& node, const std::string& path) {
+int lineOf(const YAML::Node& node) { return node.Mark().line + 1; }
+
+template <typename Value>
+Value valueOf(const YAML::Node& node, const std::string& name, const std::string& kind,
+              const std::string& path, int line) {
+  Value value;
+  if (YAML::convert<Value>::decode(node, value)) return value;
+  std::ostringstream reason;
+  reason << name << " is '" << node << "', must be " << kind;
+  refuse(path, line, reason.str());
+}
+
+double coordinateIn(const YAML::Node& node, const std::string& path) {
+  return valueOf<double>(node, "a coordinate of points", "a number", path, lineOf(node));
+}
+
+std::vector<cv::Point2d> pointsIn(const YAML::Node& node, const std::string& path, int line) {
+  if (!node.IsSequence()) refuse(path, line, "points must be a list [[x, y], ...]");
   std::vector<cv::Point2d> points;
   for (const YAML::Node& point : node) {
     if (!point.IsSequence() || point.size() != 2) {
-      refuse(path, point.Mark().line + 1, "a point must be [x, y]");
+      refuse(path, lineOf(point), "a point must be [x, y]");
     }
-    points.emplace_back(point[0].as<double>(), point[1].as<double>());
+    points.emplace_back(coordinateIn(point[0], path), coordinateIn(point[1], path));
   }
   return points;
+}
+
+int firstFrameIn(const YAML::Node& node, const std::string& path, int line) {
+  const int frame = valueOf<int>(node, "first_frame", "a whole number", path, line);
+  if (frame >= 0) return frame;
+  refuse(path, line, "first_frame is " + std::to_string(frame) + ", must be at least 0");
 }
 
 /// A file lies where the init file says, seen from its folder; anything else is a name.
@@ -101,28 +132,35 @@ struct Init {
   int first_frame_line = 0;  ///< 0: it does not say first_frame
 };
 
+/// `line`: of the key. A value that is left out is said to lie in a later one.
+void readInitKey(const std::string& key, const YAML::Node& value, const std::string& path, int line,
+                 Init& init) {
+  SequenceStart& start = init.start;
+  if (key == "model") {
+    start.model = modelFrom(valueOf<std::string>(value, key, "text", path, line), path);
+  } else if (key == "first_frame") {
+    start.first_frame = firstFrameIn(value, path, line);
+    init.first_frame_line = line;
+  } else if (key == "points") {
+    start.points = pointsIn(value, path, line);
+  } else {
+    refuse(path, line, "unknown key '" + key + "', must be one of: first_frame, model, points");
+  }
+}
+
 Init readInit(const std::string& path) {
   Init init;
-  SequenceStart& start = init.start;
   try {
     const YAML::Node document = YAML::LoadFile(path);
+    if (!document.IsNull() && !document.IsMap()) {
+      refuse(path, lineOf(document), "must be a map of the keys first_frame, model, points");
+    }
+    std::set<std::string> seen;
     for (const auto& entry : document) {
-      const std::string key = entry.first.as<std::string>();
-      if (key == "model") {
-        start.model = modelFrom(entry.second.as<std::string>(), path);
-      } else if (key == "first_frame") {
-        start.first_frame = entry.second.as<int>();
-        init.first_frame_line = entry.second.Mark().line + 1;
-        if (start.first_frame < 0) {
-          refuse(path, init.first_frame_line,
-                 "first_frame is " + std::to_string(start.first_frame) + ", must be at least 0");
-        }
-      } else if (key == "points") {
-        start.points = pointsIn(entry.second, path);
-      } else {
-        refuse(path, entry.first.Mark().line + 1,
-               "unknown key '" + key + "', must be one of: first_frame, model, points");
-      }
+      const int line = lineOf(entry.first);
+      const std::string key = valueOf<std::string>(entry.first, "a key", "text", path, line);
+      if (!seen.insert(key).second) refuse(path, line, "key '" + key + "' is there twice");
+      readInitKey(key, entry.second, path, line, init);
     }
   } catch (const YAML::Exception& error) {
     refuse(path, error.mark.line + 1, error.msg);
@@ -178,14 +216,22 @@ void readBoxes(const std::string& path, GroundTruth& truth) {
   std::ifstream file = openText(path);
   std::string line;
   int frame = 0;
+  int blank = 0;  // number of the first blank line, which may be the last one of the file only
   for (int number = 1; std::getline(file, line); ++number) {
-    if (isBlank(line)) continue;
+    if (isBlank(line)) {
+      if (blank == 0) blank = number;
+      continue;
+    }
+    if (blank > 0) {
+      refuse(path, blank, "is blank, write NaN,NaN,NaN,NaN where there is no object");
+    }
     const std::vector<double> n = numbersIn(line, path, number);
     if (n.size() != 4 && n.size() != 8) {
       refuse(
           path, number,
           "has " + std::to_string(n.size()) + " numbers, must be x,y,w,h or the 8 of four corners");
     }
+    refuseInfinite(n, line, path, number);
     std::optional<cv::Rect2d> box;
     if (!hasNan(n)) {
       box = n.size() == 4 ? cv::Rect2d(n[0], n[1], n[2], n[3]) : uprightBounds(cornersIn(n));
@@ -211,6 +257,7 @@ void readPoints(const std::string& path, GroundTruth& truth) {
     }
     const int frame = indexFrom(n[0], "frame", path, number);
     const int part = indexFrom(n[1], "part", path, number);
+    refuseInfinite(n, line, path, number);
     if (!hasNan(n)) truth.points[frame][part] = {{n[2], n[3]}, n[4] != 0.0};
   }
 }

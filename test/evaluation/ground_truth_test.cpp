@@ -48,6 +48,11 @@ class GroundTruthFiles : public testing::Test {
     return readStart(folder_.string(), GroundTruth()).value();
   }
 
+  void expectInitRefusal(const std::string& init, const std::string& reason) const {
+    const std::string place = (folder_ / "init.yaml").string();
+    EXPECT_EQ(omissionsOf(refusalOf([&] { startIn(init); }), {place + reason}), "") << init;
+  }
+
   fs::path folder_;
 };
 
@@ -81,13 +86,26 @@ TEST_F(GroundTruthFiles, FaultyBoxesAreNamedByFileAndLine) {
   EXPECT_EQ(omissionsOf(refusalOf([&] { boxesIn("1,2,3,4\n1,2,3\n"); }),
                         {place + ":2: has 3 numbers, must be x,y,w,h"}),
             "");
-  EXPECT_EQ(omissionsOf(refusalOf([&] { boxesIn("1,2,3,4\n\n1,2,x,4\n"); }),
-                        {place + ":3: '1,2,x,4' has something"}),
+  EXPECT_EQ(omissionsOf(refusalOf([&] { boxesIn("1,2,3,4\n1,2,x,4\n"); }),
+                        {place + ":2: '1,2,x,4' has something"}),
             "");
+  for (const std::string line : {"1,2,inf,4", "-inf,2,3,4", "0,0,9,0,9,1e999,0,9"}) {
+    EXPECT_EQ(omissionsOf(refusalOf([&] { boxesIn("1,2,3,4\n" + line + "\n"); }),
+                          {place + ":2: '" + line + "' has an infinite number"}),
+              "");
+  }
   GroundTruth truth;
   EXPECT_EQ(omissionsOf(refusalOf([&] { readBoxes("/no/such.txt", truth); }),
                         {"ground truth /no/such.txt cannot be read"}),
             "");
+}
+
+TEST_F(GroundTruthFiles, ABlankLineWouldShiftTheBoxesBehindIt) {
+  const std::string place = (folder_ / "groundtruth_rect.txt").string();
+  EXPECT_EQ(omissionsOf(refusalOf([&] { boxesIn("1,2,3,4\n\n \r\n5,6,7,8\n"); }),
+                        {place + ":2: is blank, write NaN,NaN,NaN,NaN where there is no object"}),
+            "");
+  EXPECT_EQ(boxesIn("1,2,3,4\n5,6,7,8\n\n\n").boxes.size(), 2U) << "nothing lies behind it";
 }
 
 TEST_F(GroundTruthFiles, PointsByFrameAndPart) {
@@ -114,6 +132,9 @@ TEST_F(GroundTruthFiles, FaultyPointsAreNamedByFileAndLine) {
             "");
   EXPECT_EQ(omissionsOf(refusalOf([&] { pointsIn(header + "0,0,1,2,1\n0,1,a,2,1\n"); }),
                         {place + ":3: '0,1,a,2,1' has"}),
+            "");
+  EXPECT_EQ(omissionsOf(refusalOf([&] { pointsIn(header + "0,0,1,inf,1\n"); }),
+                        {place + ":2: '0,0,1,inf,1' has an infinite number"}),
             "");
   for (const std::string index : {"-1", "0.5", "inf", "1e+300", "nan"}) {
     EXPECT_EQ(omissionsOf(refusalOf([&] { pointsIn(header + index + ",0,1,2,1\n"); }),
@@ -158,6 +179,26 @@ TEST_F(GroundTruthFiles, FaultyInitIsNamedByFileAndLine) {
   EXPECT_EQ(omissionsOf(refusalOf([&] { startIn("first_frame: -3\n"); }),
                         {place + ":1: first_frame is -3"}),
             "");
+}
+
+TEST_F(GroundTruthFiles, WhatInitSaysIsNeverPassedOver) {
+  for (const std::string points : {"10,20,30,40", "", "{x: 1}"}) {
+    expectInitRefusal("model: box\npoints: " + points + "\n",
+                      ":2: points must be a list [[x, y], ...]");
+  }
+  for (const std::string document : {"cable\n", "- model\n"}) {
+    expectInitRefusal(document, ":1: must be a map of the keys first_frame, model, points");
+  }
+  expectInitRefusal("model: box\nmodel: cable\n", ":2: key 'model' is there twice");
+  write("init.yaml", "# nothing yet\n");
+  EXPECT_FALSE(readStart(folder_.string(), GroundTruth())) << "it says nothing";
+}
+
+TEST_F(GroundTruthFiles, ValuesOfInitAreNamedByTheirKeys) {
+  expectInitRefusal("first_frame: 1.5\n", ":1: first_frame is '1.5', must be a whole number");
+  expectInitRefusal("model: [box]\n", ":1: model is '[box]', must be text");
+  expectInitRefusal("points: [[1, x]]\n", ":1: a coordinate of points is 'x', must be a number");
+  expectInitRefusal("[model]: box\n", ":1: a key is '[model]', must be text");
 }
 
 TEST_F(GroundTruthFiles, WithoutInitTheFirstTruthStarts) {
