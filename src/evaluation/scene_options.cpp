@@ -44,8 +44,9 @@ void checkMotion(const SceneOptions& options, Faults& faults) {
   checkBursts(options.shift_bursts, 0.0, farthest, "shift_bursts", faults);
   checkBursts(options.rotation_bursts, -CV_PI, CV_PI, "rotation_bursts", faults);
   requireWithin(0, 1000000, "leave_for", options.leave_for, faults);
-  require(options.leave_for <= 0 || options.leave_at >= 40, "leave_at", options.leave_at,
-          "at least 40 when the object leaves, which takes it that long", faults);
+  require(options.leave_for <= 0 || (options.leave_at >= 40 && options.leave_at <= 1000000),
+          "leave_at", options.leave_at,
+          "in [40, 1000000] when the object leaves, which takes it 40 frames", faults);
 }
 
 void checkOcclusions(const SceneOptions& options, Faults& faults) {

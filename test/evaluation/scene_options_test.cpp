@@ -73,6 +73,11 @@ INSTANTIATE_TEST_SUITE_P(
                     o.leave_at = 3;
                     o.leave_for = 10;
                   }},
+        BadOption{"leave_at", "2147483600",
+                  [](SceneOptions& o) {
+                    o.leave_at = 2147483600;
+                    o.leave_for = 100;
+                  }},
         BadOption{"blur", "1.5", [](SceneOptions& o) { o.blur = 1.5; }},
         BadOption{"noise", "-1", [](SceneOptions& o) { o.noise = -1.0; }},
         BadOption{"illumination", "1", [](SceneOptions& o) { o.illumination = 1.0; }},

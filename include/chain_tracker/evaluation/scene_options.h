@@ -29,7 +29,7 @@ struct SceneOptions {
   double scale_range = 1.35;  ///< size stays within 1/this and this of the mean size, 1 to 3
   std::vector<SceneBurst> shift_bursts;     ///< rate: 0 to a quarter of the shorter side [px/frame]
   std::vector<SceneBurst> rotation_bursts;  ///< rate: -pi to pi [rad/frame]
-  int leave_at = 0;                         ///< frame by which it is out of view, >= 40
+  int leave_at = 0;                         ///< frame by which it is out of view, 40 to 1000000
   int leave_for = 0;  ///< frames that it stays so at least; 0: it never leaves
 
   std::optional<double> blur;  ///< open share of the shutter's period, 0-1; unset: the scene's own
