@@ -172,6 +172,22 @@ class Suite(ProgramTest):
         self.assertIn("groundtruth_rect.txt:1", table["box"][0])
         self.assertGreater(float(table["bottle"][2]), 0.5)
 
+    def test_its_tables_hold_any_name_and_reason(self):
+        suite = self.folder / "odd_suite"
+        name = 'a, "b"|c\nd'
+        shutil.copytree(self.suite / "bottle", suite / name)
+        shutil.copytree(self.suite / "box", suite / "box")
+        (suite / "box/groundtruth_rect.txt").write_text("1,2,3\n")
+        out = self.folder / "odd"
+        self.evaluate("--suite", suite, "--out", out, "--no-report", code=2)
+        table = self.table(out)
+        self.assertEqual({len(row) for row in table.values()}, {len(table["sequence"])})
+        self.assertEqual(table[name][:2], ["bottle", "8"])
+        self.assertIn("has 3 numbers, must be x,y,w,h or", table["box"][0])
+        lines = (out / "suite.md").read_text().splitlines()
+        self.assertEqual(len(lines), 5, lines)
+        self.assertIn(r'| a, "b"\|c d | bottle | 8 |', lines[2])
+
     def test_a_sequence_that_does_not_say_why_it_failed_is_not_done(self):
         suite = self.folder / "silent_suite"
         shutil.copytree(self.suite, suite)

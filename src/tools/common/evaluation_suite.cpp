@@ -130,6 +130,7 @@ std::vector<std::vector<std::string>> tableRows(const std::vector<SuiteEntry>& e
   for (const SuiteEntry& entry : entries) {
     if (entry.summary.is_null()) {
       rows.push_back({entry.name, entry.fault});
+      rows.back().resize(header.size());
       continue;
     }
     const json& s = entry.summary;
@@ -174,25 +175,42 @@ std::vector<std::string> meanRow(const std::vector<SuiteEntry>& entries,
   return row;
 }
 
-std::string markdown(const std::vector<std::vector<std::string>>& rows) {
-  std::string table;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    std::vector<std::string> cells = rows[r];
-    cells.resize(rows.front().size());
-    table += "|";
-    for (const std::string& cell : cells) table += " " + cell + " |";
-    table += "\n";
-    if (r > 0) continue;
-    table += "|";
-    for (std::size_t c = 0; c < cells.size(); ++c) table += "---|";
-    table += "\n";
+/// The text with every `special` replaced.
+std::string replaced(const std::string& text, char special, const std::string& replacement) {
+  std::string result;
+  for (const char c : text) result += c == special ? replacement : std::string(1, c);
+  return result;
+}
+
+std::string markdownRow(const std::vector<std::string>& cells) {
+  std::string row = "|";
+  for (const std::string& cell : cells) {
+    row += " " + replaced(replaced(cell, '|', "\\|"), '\n', " ") + " |";
   }
+  return row + "\n";
+}
+
+std::string markdown(const std::vector<std::vector<std::string>>& rows) {
+  std::string table = markdownRow(rows.front()) + "|";
+  for (std::size_t c = 0; c < rows.front().size(); ++c) table += "---|";
+  table += "\n";
+  for (std::size_t r = 1; r < rows.size(); ++r) table += markdownRow(rows[r]);
   return table;
+}
+
+/// As of RFC 4180.
+std::string csvCell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  return "\"" + replaced(text, '"', "\"\"") + "\"";
 }
 
 std::string csv(const std::vector<std::vector<std::string>>& rows) {
   std::string table;
-  for (const auto& row : rows) table += joined(row) + "\n";
+  for (const std::vector<std::string>& row : rows) {
+    std::vector<std::string> cells(row.size());
+    std::transform(row.begin(), row.end(), cells.begin(), csvCell);
+    table += joined(cells) + "\n";
+  }
   return table;
 }
 
