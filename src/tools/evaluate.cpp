@@ -62,6 +62,8 @@ void addOptions(CLI::App& app, Options& options) {
   app.add_option("--recorded-topic", job.recorded_topic, "Topic of the objects in that bag")
       ->capture_default_str()
       ->needs(recording);
+  app.add_option("--id", job.id, "Object in that bag (default: the first that was told of)")
+      ->needs(recording);
   app.add_option("--ground-truth", job.ground_truth,
                  "groundtruth_rect.txt or groundtruth_parts.csv, or a recorded TrackedObjectArray "
                  "topic of the bag (default: the sequence folder's)")

@@ -60,6 +60,7 @@ Options readOptions(const ros::NodeHandle& node) {
   options.job.topic = requiredParam(node, "topic");
   options.job.out = requiredParam(node, "out");
   options.job.recording = (fs::path(options.job.out) / "objects.bag").string();
+  options.job.id = readText(node, "id");
   options.job.ground_truth = readText(node, "ground_truth");
   options.job.points = pointsFrom(readText(node, "points"));
   options.job.video = readParameter(node, "video", false, "true or false");
@@ -144,7 +145,8 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Records what a tracker publishes on `objects` while a bag is played, and scores it.\n"
       "Parameters: _bag:=FILE and _topic:=TOPIC (that are played), _out:=DIR (folder to write),\n"
-      "_ground_truth:=FILE|TOPIC, _points:=x,y,... (where the tracker is started), _video:=true,\n"
+      "_id:=ID (object; default the first), _ground_truth:=FILE|TOPIC,\n"
+      "_points:=x,y,... (where the tracker is started), _video:=true,\n"
       "_min_iou:=X, _idle_timeout:=5 (ends so long after the last message [s]),\n"
       "_first_timeout:=60 (gives up if none has come by then [s]).\n"
       "Exit codes: 0 scored, 1 the mean IoU is below ~min_iou, 2 bad input or no message.");

@@ -62,6 +62,41 @@ class Output(ProgramTest):
         self.assertAlmostEqual(of_bag["part_error_px"]["mean"], of_folder["part_error_px"]["mean"],
                                delta=1e-2)
 
+    def test_one_of_several_recorded_objects_is_scored(self):
+        bag = self.folder / "two.bag"
+        ended = run("synthesize", "--scene", "bottle", "--frames", 4, "--width", 320, "--height",
+                    240, "--bag", bag)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        recording = self.folder / "two_objects.bag"
+        # The truth is the apple, the zebra beside it.
+        script = ("import copy, sys, rosbag\n"
+                  "out = rosbag.Bag(sys.argv[2], 'w')\n"
+                  "for topic, message, time in rosbag.Bag(sys.argv[1]).read_messages(sys.argv[3]):\n"
+                  "    apple = message.objects[0]\n"
+                  "    apple.id = 'apple'\n"
+                  "    zebra = copy.deepcopy(apple)\n"
+                  "    zebra.id = 'zebra'\n"
+                  "    for point in zebra.points: point.x += 30\n"
+                  "    zebra.box = [zebra.box[0] + 30, *zebra.box[1:]]\n"
+                  "    message.objects.append(zebra)\n"
+                  "    out.write(topic, message, time)\n"
+                  "out.close()\n")
+        truth = "/ground_truth/objects"
+        subprocess.run(["/usr/bin/python3", "-c", script, bag, recording, truth], check=True)
+        common = ("--bag", bag, "--topic", TOPIC, "--recording", recording, "--recorded-topic",
+                  truth, "--ground-truth", truth, "--no-report", "--out")
+        told = f"{recording}: the recording has 'apple', 'zebra'; 'apple' is scored"
+        out = self.folder / "of_apple"
+        self.assertIn(told, self.evaluate(*common, out))
+        self.assertEqual(summary_in(out)["id"], "apple")
+        self.assertAlmostEqual(summary_in(out)["mean_iou"], 1.0, delta=1e-3)
+        out = self.folder / "of_zebra"
+        self.assertNotIn(told, self.evaluate(*common, out, "--id", "zebra"))
+        self.assertEqual(summary_in(out)["id"], "zebra")
+        self.assertLess(summary_in(out)["mean_iou"], 0.9)
+        said = self.evaluate(*common, out, "--id", "yak", code=2)
+        self.assertIn("tells of 'yak', only of 'apple', 'zebra'", said)
+
     def test_everything_is_written_and_the_report_needs_nothing_else(self):
         out = self.folder / "everything"
         self.evaluate("--sequence", self.sequence, "--baselines", "kcf,camshift", "--video",

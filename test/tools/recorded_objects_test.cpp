@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,8 @@
 #include <rosbag/bag.h>
 
 #include "chain_tracker/TrackedObjectArray.h"
-#include "chain_tracker/chain/object_shape.h"
 #include "chain_tracker/chain/chain_layout.h"
+#include "chain_tracker/chain/object_shape.h"
 #include "chain_tracker/ros/msg_conversion.h"
 #include "support/refusal.h"
 
@@ -133,9 +134,9 @@ class Recordings : public testing::Test {
     bag_.write("/objects", stamp, array);
   }
 
-  ObjectRecording read(int frames) {
+  ObjectRecording read(int frames, const std::string& id = "") {
     bag_.close();
-    return readRecording(path_, "/objects", indexOf(frames));
+    return readRecording(path_, "/objects", indexOf(frames), id);
   }
 
   std::string path_;
@@ -179,6 +180,36 @@ TEST_F(Recordings, FollowTheObjectThatCameFirst) {
   EXPECT_EQ(recording.frames_without_object, (std::vector<int>{0, 3}));
 }
 
+TEST_F(Recordings, MayHoldSeveralObjects) {
+  for (const int frame : {0, 1}) {
+    add(stampOf(frame), {object("apple", TrackingStatus::kTracking)});
+  }
+  add(stampOf(2),
+      {object("apple", TrackingStatus::kTracking), object("zebra", TrackingStatus::kTracking)});
+  const ObjectRecording recording = read(3, "zebra");
+  EXPECT_EQ(recording.id, "zebra");
+  EXPECT_EQ(recording.ids, (std::set<std::string>{"apple", "zebra"}));
+  EXPECT_EQ(namesOf(recording.ids), "'apple', 'zebra'");
+  EXPECT_EQ(recording.frames.size(), 1U);
+  EXPECT_EQ(recording.frames.count(2), 1U);
+  EXPECT_EQ(recording.frames_without_object, (std::vector<int>{0, 1}));
+}
+
+TEST_F(Recordings, AMissingObjectIsRefusedWithThoseThatAre) {
+  add(stampOf(0),
+      {object("apple", TrackingStatus::kTracking), object("zebra", TrackingStatus::kTracking)});
+  EXPECT_EQ(omissionsOf(refusalOf([&] { read(1, "yak"); }),
+                        {path_ + ": no message on /objects tells of 'yak', only of 'apple', "
+                                 "'zebra'"}),
+            "");
+}
+
+TEST_F(Recordings, WithoutObjectsAreRefusedForAnyId) {
+  add(stampOf(0), {});
+  EXPECT_EQ(omissionsOf(refusalOf([&] { read(1, "yak"); }), {"tells of 'yak', nor of any object"}),
+            "");
+}
+
 TEST_F(Recordings, ServeAsTruth) {
   add(stampOf(0), {object("a", TrackingStatus::kInitializing)});
   add(stampOf(1), {object("a", TrackingStatus::kLost)});
@@ -195,7 +226,7 @@ TEST_F(Recordings, ServeAsTruth) {
 TEST_F(Recordings, AMissingTopicIsRefusedWithThoseThatAre) {
   add(stampOf(0), {object("a", TrackingStatus::kTracking)});
   bag_.close();
-  EXPECT_EQ(omissionsOf(refusalOf([&] { readRecording(path_, "/nope", indexOf(1)); }),
+  EXPECT_EQ(omissionsOf(refusalOf([&] { readRecording(path_, "/nope", indexOf(1), ""); }),
                         {path_, "'/nope'", "chain_tracker/TrackedObjectArray", "/objects"}),
             "");
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -53,9 +54,22 @@ bool isTopic(const std::string& ground_truth) {
          !fs::path(ground_truth).has_extension();
 }
 
+/// The object that is scored, as the truth has it. It may have another name there.
+ObjectRecording readTruthTopic(const EvaluationJob& job, const std::string& scored) {
+  const std::map<ros::Time, int> index_of = indexByStamp(job.bag, job.topic);
+  ObjectRecording first = readRecording(job.bag, job.ground_truth, index_of, "");
+  if (first.ids.count(scored) > 0) {
+    return readRecording(job.bag, job.ground_truth, index_of, scored);
+  }
+  if (first.ids.size() > 1) {
+    warn(job.bag + ": " + job.ground_truth + " has " + namesOf(first.ids) + "; '" + first.id +
+         "' is taken for the truth");
+  }
+  return first;
+}
+
 void takeTruthTopic(const EvaluationJob& job, Input& input) {
-  const ObjectRecording recorded =
-      readRecording(job.bag, job.ground_truth, indexByStamp(job.bag, job.topic));
+  const ObjectRecording recorded = readTruthTopic(job, input.recording ? input.recording->id : "");
   input.truth = truthFrom(recorded);
   input.start = readStart("", input.truth);
   if (input.start) input.start->model = recorded.model;
@@ -71,7 +85,7 @@ SequenceStart startOf(const ObjectRecording& recording) {
 
 void takeRecording(const EvaluationJob& job, Input& input) {
   input.recording =
-      readRecording(job.recording, job.recorded_topic, indexByStamp(job.bag, job.topic));
+      readRecording(job.recording, job.recorded_topic, indexByStamp(job.bag, job.topic), job.id);
   const ObjectRecording& recording = *input.recording;
   if (recording.frames.empty()) {
     throw std::invalid_argument(job.recording + ": no message on " + job.recorded_topic +
@@ -83,19 +97,23 @@ void takeRecording(const EvaluationJob& job, Input& input) {
   };
   tell(recording.without_image, "have the stamp of no image and are left out");
   tell(recording.damaged, "cannot be read and are left out");
-  if (!input.start) input.start = startOf(recording);
+  if (job.id.empty() && recording.ids.size() > 1) {
+    warn(job.recording + ": the recording has " + namesOf(recording.ids) + "; '" + recording.id +
+         "' is scored");
+  }
 }
 
 Input openBag(const EvaluationJob& job) {
   Input input{fs::path(job.bag).stem().string(), openSource(job), {}, {}, {}};
   for (const std::string& finding : checkBag(job.bag, job.topic)) warn(job.bag + ": " + finding);
+  if (!job.recording.empty()) takeRecording(job, input);
   if (isTopic(job.ground_truth)) {
     takeTruthTopic(job, input);
   } else if (!job.ground_truth.empty()) {
     readTruthFile(job.ground_truth, input.truth);
     input.start = readStart("", input.truth);
   }
-  if (!job.recording.empty()) takeRecording(job, input);
+  if (input.recording && !input.start) input.start = startOf(*input.recording);
   return input;
 }
 
@@ -242,6 +260,7 @@ nlohmann::json runJob(const EvaluationJob& job, const std::function<bool()>& int
   const std::string wanted = input.recording ? input.recording->model : start.model;
   const std::string model = wanted == "auto" ? autoModelName(start.points) : wanted;
   nlohmann::json summary = summaryOf(result, input.name, model);
+  if (input.recording) summary["id"] = input.recording->id;
   writeResults(result, summary, job.out);
   writeWorstFrames(*openSource(job), result, input.truth, job.out + "/worst_frames.jpg");
   std::cout << tableOf(summary);

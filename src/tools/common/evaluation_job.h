@@ -17,6 +17,7 @@ struct EvaluationJob {
   std::string topic;      ///< of the images in the bag
   std::string recording;  ///< bag of a live tracker's objects, scored instead of a run
   std::string recorded_topic = "/chain_tracker/objects";  ///< of the objects in that bag
+  std::string id;                   ///< of the recorded object; empty: the first one
   std::string ground_truth;         ///< file, or topic of the bag; empty: the folder's
   std::string model;                ///< name, file, "auto" or empty: what the sequence says
   std::vector<cv::Point2d> points;  ///< in frame 0; empty: what the sequence says

@@ -2,6 +2,7 @@
 #include "recorded_objects.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "bag_topic.h"
 #include "chain_tracker/TrackedObjectArray.h"
@@ -56,14 +57,21 @@ const TrackedObject* findObject(const TrackedObjectArray& array, const std::stri
 
 }  // namespace
 
+std::string namesOf(const std::set<std::string>& ids) {
+  std::string names;
+  for (const std::string& id : ids) names += (names.empty() ? "'" : ", '") + id + "'";
+  return names;
+}
+
 cv::Rect2d boxOf(const TrackedObject& object) {
   if (object.state == TrackedObject::LOST) return {};
   return {object.box[0], object.box[1], object.box[2], object.box[3]};
 }
 
 ObjectRecording readRecording(const std::string& bag, const std::string& topic,
-                              const std::map<ros::Time, int>& index_of) {
+                              const std::map<ros::Time, int>& index_of, const std::string& id) {
   ObjectRecording recording;
+  recording.id = id;
   BagTopic messages(bag, topic, {kObjectsType});
   for (const rosbag::MessageInstance& message : messages.view()) {
     const auto array = arrayFrom(message);
@@ -71,6 +79,7 @@ ObjectRecording readRecording(const std::string& bag, const std::string& topic,
       ++recording.damaged;
       continue;
     }
+    for (const TrackedObject& object : array->objects) recording.ids.insert(object.id);
     const auto frame = index_of.find(array->header.stamp);
     if (frame == index_of.end()) {
       ++recording.without_image;
@@ -84,6 +93,11 @@ ObjectRecording readRecording(const std::string& bag, const std::string& topic,
     recording.id = object->id;
     recording.model = object->model;
     recording.frames[frame->second] = {array->processing_time.toSec() * 1e3, frameFrom(*object)};
+  }
+  if (!id.empty() && recording.ids.count(id) == 0) {
+    throw std::invalid_argument(
+        bag + ": no message on " + topic + " tells of '" + id + "', " +
+        (recording.ids.empty() ? "nor of any object" : "only of " + namesOf(recording.ids)));
   }
   return recording;
 }
