@@ -123,6 +123,7 @@ int recordAndScore() {
   ros::NodeHandle node;
   const Options options = readOptions(ros::NodeHandle("~"));
   checkGroundTruth(options.job);  // before the bag is played, which may take long
+  requireStamps(options.job.bag, options.job.topic);
   fs::create_directories(options.job.out);
   const std::map<ros::Time, int> index_of = indexByStamp(options.job.bag, options.job.topic);
   if (index_of.empty()) throw std::invalid_argument(options.job.bag + " has no images");

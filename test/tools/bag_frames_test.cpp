@@ -121,6 +121,28 @@ TEST_F(BagFrames, ASharedStampDoesNotShiftTheOthers) {
   EXPECT_EQ(index_of.at(ros::Time(3.0)), 3);
 }
 
+TEST_F(BagFrames, ARecordingIsMatchedByStampsOfTheirOwn) {
+  for (const double stamp : {1.0, 3.0, 2.0}) add(10.0 + stamp, stamp);
+  bag_.close();
+  EXPECT_EQ(refusalOf([&] { requireStamps(path_, "/image"); }), "") << "their order does not count";
+}
+
+TEST_F(BagFrames, ARecordingCannotBeMatchedWithoutStamps) {
+  for (const double time : {10.0, 11.0}) add(time, 0.0);
+  bag_.close();
+  EXPECT_EQ(omissionsOf(refusalOf([&] { requireStamps(path_, "/image"); }),
+                        {path_ + ": frame 0 of /image has no stamp", "use `evaluate --bag`"}),
+            "");
+}
+
+TEST_F(BagFrames, ARecordingCannotBeMatchedBySharedStamps) {
+  for (const double stamp : {1.0, 2.0, 3.0, 2.0}) add(10.0 + stamp, stamp);
+  bag_.close();
+  EXPECT_EQ(omissionsOf(refusalOf([&] { requireStamps(path_, "/image"); }),
+                        {path_ + ": frame ", "of /image has the stamp of frame 1"}),
+            "");
+}
+
 TEST_F(BagFrames, WhatIsOddAboutABagIsTold) {
   for (int i = 0; i < 10; ++i) add(10.0 + i, 10.0 + i);
   add(30.0, 30.0);

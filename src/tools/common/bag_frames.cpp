@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 
 #include <opencv2/imgcodecs.hpp>
 #include <sensor_msgs/CompressedImage.h>
@@ -142,6 +143,26 @@ std::map<ros::Time, int> indexByStamp(const std::string& bag, const std::string&
     ++index;
   }
   return index_of;
+}
+
+void requireStamps(const std::string& bag, const std::string& topic) {
+  const auto refuse = [&](int index, const std::string& reason) {
+    throw std::invalid_argument(
+        bag + ": frame " + std::to_string(index) + " of " + topic + " " + reason +
+        ", but a live tracker's messages are matched by stamps; use `evaluate --bag`");
+  };
+  std::map<ros::Time, int> index_of;
+  BagTopic images(bag, topic, kImageTypes);
+  int index = 0;
+  for (const rosbag::MessageInstance& message : images.view()) {
+    const ImageMessage decoded = decode(message, false);
+    if (decoded.fault.empty()) {
+      if (decoded.header.stamp.isZero()) refuse(index, "has no stamp");
+      const auto [same, is_new] = index_of.emplace(decoded.header.stamp, index);
+      if (!is_new) refuse(index, "has the stamp of frame " + std::to_string(same->second));
+    }
+    ++index;
+  }
 }
 
 }  // namespace chain_tracker

@@ -27,4 +27,8 @@ std::vector<std::string> checkBag(const std::string& bag, const std::string& top
 /// Throws as above.
 std::map<ros::Time, int> indexByStamp(const std::string& bag, const std::string& topic);
 
+/// Throws std::invalid_argument naming the bag if what a live tracker publishes cannot be told by
+/// the image's stamp: where an image has none, or that of another one. Throws as above, too.
+void requireStamps(const std::string& bag, const std::string& topic);
+
 }  // namespace chain_tracker
