@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,7 +29,7 @@ namespace chain_tracker {
 namespace {
 
 constexpr int kExitGood = 0;
-constexpr int kExitNothingCame = 1;
+constexpr int kExitNothingCame = 1;  // of the object
 constexpr int kExitBadInput = 2;
 
 constexpr int kObjectsQueue = 1000;
@@ -150,7 +151,7 @@ class Recorder {
         overlay_sub_(image_transport::ImageTransport(node).subscribe(
             "overlay", kOverlayQueue, &Recorder::recordOverlay, this)) {}
 
-  /// Returns the exit code: bad if no message came at all.
+  /// Returns the exit code: bad if no message told of the object.
   int run() {
     const ros::WallTime start = ros::WallTime::now();
     while (ros::ok() && !isOver(start)) {
@@ -159,6 +160,10 @@ class Recorder {
     video_.close();
     if (frame_count_ == 0) {
       ROS_ERROR("no message on %s", objects_sub_.getTopic().c_str());
+      return kExitNothingCame;
+    }
+    if (summary_.frames() == 0) {
+      ROS_ERROR("%s", absence().c_str());
       return kExitNothingCame;
     }
     writeSummary();
@@ -173,8 +178,16 @@ class Recorder {
                                   : (now - last_message_).toSec() > options_.idle_timeout_sec;
   }
 
+  /// Of the object in all messages.
+  std::string absence() const {
+    const std::string messages = "no message on " + objects_sub_.getTopic() + " told of ";
+    if (ids_.empty()) return messages + "an object";
+    return messages + "'" + options_.id + "', only of " + namesOf(ids_);
+  }
+
   void recordObjects(const TrackedObjectArray& message) {
     last_message_ = ros::WallTime::now();
+    for (const TrackedObject& object : message.objects) ids_.insert(object.id);
     const int frame = frame_count_++;
     const auto object = std::find_if(
         message.objects.begin(), message.objects.end(),
@@ -239,6 +252,7 @@ class Recorder {
   OverlayVideo video_;
   RunSummary summary_;
   std::string model_;
+  std::set<std::string> ids_;  ///< of all objects
   int frame_count_ = 0;
   ros::WallTime last_message_;
   ros::Subscriber objects_sub_;
@@ -279,7 +293,7 @@ int main(int argc, char** argv) {
       "Parameters: _dir:=DIR (folder to write), _id:=ID (object; default the first),\n"
       "_idle_timeout:=3 (ends so long after the last message [s]),\n"
       "_first_timeout:=30 (gives up if none has come by then [s]).\n"
-      "Exit codes: 0 recorded, 1 no message came, 2 bad parameters or files.");
+      "Exit codes: 0 recorded, 1 no message told of the object, 2 bad parameters or files.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

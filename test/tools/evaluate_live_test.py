@@ -149,6 +149,35 @@ class Parameters(ProgramTest):
         self.assertIn("has no topic '/no/such'",
                       self.live_refusal_of("no_topic", "_ground_truth:=/no/such"))
 
+    def test_images_without_stamps(self):
+        bag = self.folder / "without_stamps.bag"
+        script = ("import sys, rosbag\n"
+                  "out = rosbag.Bag(sys.argv[2], 'w')\n"
+                  "for topic, message, time in rosbag.Bag(sys.argv[1]):\n"
+                  "    message.header.stamp.secs = message.header.stamp.nsecs = 0\n"
+                  "    out.write(topic, message, time)\n"
+                  "out.close()\n")
+        subprocess.run(["/usr/bin/python3", "-c", script, self.bag, bag], check=True)
+        said = self.live_refusal_of("stampless", f"_bag:={bag}")
+        self.assertIn(f"{bag}: frame 0 of {TOPIC} has no stamp", said)
+        self.assertIn("use `evaluate --bag`", said)
+
+    def test_no_message_tells_of_the_object(self):
+        publisher = subprocess.Popen(
+            ["rostopic", "pub", "--latch", "/objects", "chain_tracker/TrackedObjectArray",
+             "{objects: [{id: apple}, {id: zebra}]}"], env=self.environment,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(publisher.wait)
+        self.addCleanup(publisher.terminate)
+        for name, code in (("zebra", 0), ("yak", 1)):
+            with self.subTest(name=name):
+                ended = run("record_results", f"_dir:={self.folder}/of_{name}", f"_id:={name}",
+                            "_idle_timeout:=0.5", f"__name:=record_{name}", env=self.environment,
+                            timeout=60)
+                said = ended.stdout + ended.stderr
+                self.assertEqual(ended.returncode, code, said)
+        self.assertIn("no message on /objects told of 'yak', only of 'apple', 'zebra'", said)
+
 
 if __name__ == "__main__":
     unittest.main()
