@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What `evaluate` says of bad input, and what it keeps."""
+import json
 import os
 import shutil
 import unittest
@@ -47,6 +48,17 @@ class BadInput(ProgramTest):
         self.assertIn("has no ground truth: there are tracks, but no scores", said)
         self.assertIsNone(summary_in(self.out)["mean_iou"])
         self.assertEqual(summary_in(self.out)["frames"], 20)
+
+    def test_a_folder_whose_name_is_no_utf8(self):
+        suite = self.folder / "names"
+        suite.mkdir()
+        sequence = os.fsencode(suite) + b"/caf\xe9"
+        shutil.copytree(os.fsencode(self.good), sequence)
+        self.evaluate_folder(os.fsdecode(sequence))
+        self.assertEqual(summary_in(self.out)["sequence"], "caf\ufffd")
+        self.evaluate("--suite", suite, "--out", self.out, "--no-report")
+        (done,) = json.loads((self.out / "suite.json").read_text())
+        self.assertEqual((done["sequence"], done["frames"]), ("caf\ufffd", 20))
 
     def test_missing_ground_truth_file(self):
         said = self.evaluate_folder(self.good, "--ground-truth", "/no/such.txt", code=2)

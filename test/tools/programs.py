@@ -14,8 +14,8 @@ TOPIC = "/camera/image_raw"
 
 
 def run(program, *arguments, **options):
-    """The ended process, with what it printed as text."""
-    return subprocess.run([PROGRAMS / program, *map(str, arguments)], text=True,
+    """The ended process, with what it printed as text. Names in it may be no UTF-8."""
+    return subprocess.run([PROGRAMS / program, *map(str, arguments)], text=True, errors="replace",
                           capture_output=True, **options)
 
 

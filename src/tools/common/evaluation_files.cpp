@@ -169,7 +169,7 @@ json summaryOf(const EvaluationResult& result, const std::string& sequence,
 void writeResults(const EvaluationResult& result, const json& summary, const std::string& folder) {
   writeObjects(result.runs.front(), folder);
   writeScores(result, folder);
-  writeText(folder + "/summary.json", summary.dump(2) + "\n");
+  writeJson(folder + "/summary.json", summary);
 }
 
 std::string tableOf(const json& summary) {

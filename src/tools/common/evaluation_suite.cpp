@@ -282,7 +282,7 @@ SuiteResult runSuite(const std::string& suite, const EvaluationJob& job, int par
   rows.push_back(meanRow(entries, job.baselines));
   writeText(job.out + "/suite.md", markdown(rows));
   writeText(job.out + "/suite.csv", csv(rows));
-  writeText(job.out + "/suite.json", jsonOf(entries).dump(2) + "\n");
+  writeJson(job.out + "/suite.json", jsonOf(entries));
   std::cout << markdown(rows);
   const bool complete = std::all_of(entries.begin(), entries.end(), [](const SuiteEntry& entry) {
     return entry.fault.empty() || !entry.startable;

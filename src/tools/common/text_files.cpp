@@ -13,4 +13,8 @@ void writeText(const std::string& path, const std::string& content) {
   if (!file) throw std::runtime_error(path + " cannot be written");
 }
 
+void writeJson(const std::string& path, const nlohmann::json& content) {
+  writeText(path, content.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
 }  // namespace chain_tracker
