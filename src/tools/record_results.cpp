@@ -22,6 +22,7 @@
 #include "common/node_parameters.h"
 #include "common/recorded_objects.h"
 #include "common/result_files.h"
+#include "common/text_files.h"
 
 namespace fs = std::filesystem;
 
@@ -55,7 +56,7 @@ class LineFile {
   }
 
   void write(const std::string& line) {
-    out_ << line << '\n';
+    out_ << line << std::endl;  // a full disk tells no sooner
     if (!out_) throw std::runtime_error(name_ + ": cannot be written");
   }
 
@@ -242,7 +243,7 @@ class Recorder {
     nlohmann::json summary = summary_.toJson();
     summary["id"] = options_.id;
     summary["model"] = model_;
-    LineFile(fs::path(options_.dir) / "summary.json", summary.dump(2));
+    writeJson((fs::path(options_.dir) / "summary.json").string(), summary);
   }
 
   Options options_;

@@ -162,6 +162,13 @@ class Parameters(ProgramTest):
         self.assertIn(f"{bag}: frame 0 of {TOPIC} has no stamp", said)
         self.assertIn("use `evaluate --bag`", said)
 
+    def test_a_full_disk_is_told(self):
+        folder = self.folder / "full"
+        folder.mkdir()
+        (folder / "parts.csv").symlink_to("/dev/full")
+        self.assertIn(f"{folder}/parts.csv: cannot be written",
+                      self.refusal_of("record_results", f"_dir:={folder}"))
+
     def test_no_message_tells_of_the_object(self):
         publisher = subprocess.Popen(
             ["rostopic", "pub", "--latch", "/objects", "chain_tracker/TrackedObjectArray",
