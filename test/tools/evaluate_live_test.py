@@ -27,13 +27,14 @@ class Live(ProgramTest):
     def setUpClass(cls):
         super().setUpClass()
         cls.sequence = cls.render("bottle", "bottle", 40)
-        cls.bag = cls.folder / "bottle.bag"
+        cls.bag = cls.folder / "my bottle.bag"
         assert run("make_bag", "--sequence", cls.sequence, "--out", cls.bag).returncode == 0
         cls.live = cls.folder / "live"
         port = free_port()
         # Slow enough that nothing has to be dropped.
         cls.launch = subprocess.run(
             ["roslaunch", "-p", str(port), "chain_tracker", "evaluate.launch", f"bag:={cls.bag}",
+             "topic:=camera/image_raw",
              f"points:={points_in(cls.sequence)}", "model:=bottle", "rate:=0.2",
              f"ground_truth:={cls.sequence}/groundtruth_parts.csv", f"out:={cls.live}"],
             env=environment_of(port, cls.folder), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
