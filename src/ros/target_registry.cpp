@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "chain_tracker/chain/auto_model.h"
 #include "chain_tracker/chain/target_checks.h"
 #include "chain_tracker/ros/image_conversion.h"
 #include "chain_tracker/ros/msg_conversion.h"
@@ -76,8 +77,23 @@ std::optional<std::string> TargetRegistry::withdraw(std::uint64_t ticket) {
 TargetRegistry::Target TargetRegistry::start(const Frame& frame, const cv::Mat& image,
                                              const std::vector<cv::Point2d>& points,
                                              const ChainModel& model) {
-  return {points, image.size(), ChainTracker(model, image, points), frame.number,
+  return {points,
+          model,
+          image.size(),
+          image.size(),
+          ChainTracker(model, image, points),
+          frame.number,
           frame.image->header.stamp};
+}
+
+void TargetRegistry::startAgain(const Frame& frame, const cv::Mat& image,
+                                const std::vector<cv::Point2d>& points, const ChainModel& model,
+                                Target* target) {
+  Target again = start(frame, image, points, model);
+  again.given_points = rescaled(target->given_points, target->image_size, image.size());
+  again.given_model = target->given_model;
+  again.given_size = target->given_size;
+  *target = std::move(again);
 }
 
 void TargetRegistry::startAt(const Frame& frame, const TargetRequest& request,
@@ -197,17 +213,17 @@ std::string TargetRegistry::breakInStream(const Frame& frame, const cv::Mat& ima
 void TargetRegistry::advance(const Frame& frame, const cv::Mat& image, Target* target) {
   const cv::Size old_size = target->image_size;
   const ChainState& state = target->tracker.state();
-  const std::vector<cv::Point2d> given_points =
-      rescaled(target->given_points, old_size, image.size());
+  const ChainModel& model = target->given_model;
   if (target->restart || wentBack(target->stamp, frame.image->header.stamp)) {
-    *target = start(frame, image, given_points, target->tracker.model());
+    const auto points = rescaled(target->given_points, old_size, image.size());
+    const bool suits = image.size() == target->given_size;
+    startAgain(frame, image, points, suits ? model : withRoomForParts(model, points), target);
   } else if (image.size() != old_size) {
     if (state.status == TrackingStatus::kLost) {
       throw std::runtime_error("it is lost, and found again in images of the old size only");
     }
-    *target = start(frame, image, rescaled(positionsOf(state.points), old_size, image.size()),
-                    target->tracker.model());
-    target->given_points = given_points;
+    const auto points = rescaled(positionsOf(state.points), old_size, image.size());
+    startAgain(frame, image, points, withRoomForParts(model, points), target);
   } else {
     target->tracker.update(image);
     target->frame_number = frame.number;

@@ -11,7 +11,9 @@
 #include <gtest/gtest.h>
 #include <ros/serialization.h>
 
+#include "chain_tracker/chain/auto_model.h"
 #include "chain_tracker/chain/chain_model_io.h"
+#include "chain_tracker/evaluation/synthetic_scene.h"
 #include "chain_tracker/ros/image_conversion.h"
 #include "ros/rendered_scene.h"
 
@@ -235,6 +237,25 @@ TEST_F(TargetRegistryTest, AnotherSizeStartsAgainWhereTheObjectIs) {
   result = show(twice, 7.0);
   EXPECT_TRUE(result.notes.empty());
   EXPECT_EQ(result.objects.at(0).state, TrackedObject::TRACKING);
+}
+
+TEST_F(TargetRegistryTest, PartsAreAsManyAsAnotherSizeHasRoomFor) {
+  const SceneFrame scene = makeScene("cable", SceneOptions())->render(0);
+  const ChainModel cable = withRoomForParts(
+      loadChainModel(std::string(CHAIN_TRACKER_SOURCE_DIR) + "/config/models/cable.yaml"),
+      scene.points);
+  registry_.startAtNextFrame({"a", "cable", scene.points}, cable, [](const std::string&) {});
+  const auto all = static_cast<std::size_t>(cable.segments[0].parts);
+  EXPECT_EQ(show(scene.image, 1.0).objects.at(0).parts.size(), all);
+  cv::Mat half;
+  cv::resize(scene.image, half, cv::Size(), 0.5, 0.5, cv::INTER_AREA);
+  const FrameResult small = show(half, 2.0);
+  EXPECT_TRUE(small.faults.empty()) << small.faults[0].reason;
+  EXPECT_LT(small.objects.at(0).parts.size(), all);
+  EXPECT_EQ(show(half, 3.0).objects.at(0).state, TrackedObject::TRACKING);
+  registry_.restartAll();
+  EXPECT_EQ(show(half, 4.0).objects.at(0).state, TrackedObject::INITIALIZING);
+  EXPECT_EQ(show(scene.image, 5.0).objects.at(0).parts.size(), all);
 }
 
 TEST_F(TargetRegistryTest, ThePointsGivenAreScaledWithTheImage) {

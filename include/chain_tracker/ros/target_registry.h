@@ -69,7 +69,8 @@ class TargetRegistry {
   ///
   /// An object is started again from the points given if restartAll() was called or the stamp lies
   /// more than half a second before the last one (a bag that starts again); from where it is now,
-  /// scaled, if the image's size has changed. An object that cannot be started again is LOST, and
+  /// scaled, if the image's size has changed, with fewer parts where there is no room for all of
+  /// the model's. An object that cannot be started again is LOST, and
   /// tried again with every frame. One object's fault does not touch the others, and nothing is
   /// thrown.
   FrameResult process(const Frame& frame, const cv::Mat& image);
@@ -77,6 +78,8 @@ class TargetRegistry {
  private:
   struct Target {
     std::vector<cv::Point2d> given_points;  ///< [px] of images of size image_size
+    ChainModel given_model;                 ///< for images of size given_size
+    cv::Size given_size;
     cv::Size image_size;
     ChainTracker tracker;
     std::uint64_t frame_number;  ///< of the last frame it has seen
@@ -93,6 +96,10 @@ class TargetRegistry {
 
   static Target start(const Frame& frame, const cv::Mat& image,
                       const std::vector<cv::Point2d>& points, const ChainModel& model);
+  /// Starts the object anew, as the one that was given once.
+  static void startAgain(const Frame& frame, const cv::Mat& image,
+                         const std::vector<cv::Point2d>& points, const ChainModel& model,
+                         Target* target);
   static void catchUp(const ImageHistory& history, std::uint64_t up_to, Target* target);
   /// Why the frame does not follow the last one the target has seen; empty if it does.
   static std::string breakInStream(const Frame& frame, const cv::Mat& image, const Target& target);
