@@ -41,6 +41,8 @@ constexpr std::chrono::seconds kLogPeriod(5);
 /// Checks without an image until the user is told where images are awaited; one a second.
 constexpr int kPatience = 10;
 
+bool isEmpty(const sensor_msgs::Image& image) { return image.width == 0 || image.height == 0; }
+
 }  // namespace
 
 class TrackerNodelet : public nodelet::Nodelet {
@@ -69,6 +71,7 @@ class TrackerNodelet : public nodelet::Nodelet {
 
   // The way of an image
   std::uint64_t frames_received_ = 0;
+  bool last_was_empty_ = false;
   int checks_without_image_ = 0;
   int checks_without_report_ = 0;
   std::unique_ptr<ImageHistory> history_;
@@ -173,6 +176,10 @@ void TrackerNodelet::check() {
 
 void TrackerNodelet::receive(const sensor_msgs::ImageConstPtr& image) {
   if (commands_->paused()) return;
+  // image_publisher sends one empty image whenever a video begins again, and nothing else where it
+  // cannot read the file.
+  const bool last_was_empty = std::exchange(last_was_empty_, isEmpty(*image));
+  if (last_was_empty_ && !last_was_empty) return;
   const Frame frame{++frames_received_, image};
   history_->add(frame);
   mailbox_.put(frame);

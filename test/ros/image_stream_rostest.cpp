@@ -93,6 +93,25 @@ TEST_F(ImageStreamTest, UnknownEncodingsAndBrokenImagesAreNamedAndSurvived) {
   EXPECT_TRUE(isAt(show(imageMsg(scene_.with({BottlePose()}), nextStamp())), BottlePose()));
 }
 
+TEST_F(ImageStreamTest, OnlyTheSecondEmptyImageInARowIsAnError) {
+  startBottle();
+  const ErrorCounter single("'single'");
+  const ErrorCounter pair("'pair'");
+  sensor_msgs::Image empty;
+  const auto shown_after = [&](const std::string& encoding, int times) {
+    empty.encoding = encoding;
+    for (int k = 0; k < times; ++k) client_.publish(empty);
+    waitUntil([] { return false; }, 0.05);  // or the next image would replace it
+    return isAt(show(imageMsg(scene_.with({BottlePose()}), nextStamp())), BottlePose());
+  };
+  EXPECT_TRUE(waitUntil([&] {
+    EXPECT_TRUE(shown_after("single", 1));
+    EXPECT_TRUE(shown_after("pair", 2));
+    return pair.count() > 0;
+  }));
+  EXPECT_EQ(single.count(), 0);
+}
+
 TEST_F(ImageStreamTest, AnErrorIsNotRepeatedForEveryImage) {
   const ErrorCounter errors("'ultraviolet'");
   sensor_msgs::Image unknown = *imageMsg(scene_.wall(), nextStamp());
