@@ -2,6 +2,7 @@
 #include "chain_tracker/chain/chain_model_io.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -208,7 +209,10 @@ ChainModel parseChainModel(const std::string& yaml, const std::string& source) {
 
 ChainModel loadChainModel(const std::string& path) {
   std::ifstream file(path);
-  if (!file) throw std::invalid_argument("model file " + path + " cannot be read");
+  if (!file) {
+    throw std::invalid_argument("model file " + std::filesystem::absolute(path).string() +
+                                " cannot be read");
+  }
   std::ostringstream text;
   text << file.rdbuf();
   return parseChainModel(text.str(), path);

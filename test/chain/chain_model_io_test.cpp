@@ -223,6 +223,11 @@ TEST(LoadChainModel, namesAFileThatIsNotThere) {
   EXPECT_EQ("", omissionsOf(refusalOf([&] { loadChainModel(path); }), {path, "cannot be read"}));
 }
 
+TEST(LoadChainModel, tellsWhereItLookedForAFile) {
+  const std::string path = (std::filesystem::current_path() / "no_such_model.yaml").string();
+  EXPECT_EQ("", omissionsOf(refusalOf([] { loadChainModel("no_such_model.yaml"); }), {path}));
+}
+
 TEST(LoadChainModel, namesAFolderThatIsNoFile) {
   EXPECT_EQ("", omissionsOf(refusalOf([&] { loadChainModel(kBadModels); }), {kBadModels}));
 }
