@@ -34,6 +34,11 @@ std::string ModelFolder::ofThisPackage() {
   return package.empty() ? "" : package + "/config/models";
 }
 
+bool ModelFolder::has(const std::string& name) const {
+  const std::vector<std::string> known = names();
+  return std::binary_search(known.begin(), known.end(), name);
+}
+
 std::vector<std::string> ModelFolder::names() const {
   std::vector<std::string> names;
   std::error_code no_folder;  // a folder that cannot be read has no names
@@ -52,11 +57,10 @@ ChainModel ModelFolder::load(const std::string& name_or_file) const {
                                 "is not set and ROS does not "
                                 "find the package chain_tracker (source its setup.bash)");
   }
-  const std::vector<std::string> known = names();
-  if (!std::binary_search(known.begin(), known.end(), name_or_file)) {
+  if (!has(name_or_file)) {
     throw std::invalid_argument("model '" + name_or_file + "' is unknown, must be auto, a file (*" +
                                 kExtension + ") or one of those in " + path_ + ": " +
-                                joined(known));
+                                joined(names()));
   }
   return loadChainModel(path_ + "/" + name_or_file + kExtension);
 }
@@ -68,8 +72,14 @@ ChainModel ModelFolder::loadFor(const std::vector<cv::Point2d>& points,
     throw std::invalid_argument("the object is given " + std::to_string(points.size()) +
                                 " points, must be at least 2");
   }
-  const std::string name = name_or_file == kAuto ? autoModelName(points) : name_or_file;
-  return withRoomForParts(load(name), points);
+  if (name_or_file != kAuto) return withRoomForParts(load(name_or_file), points);
+  return loadForAuto(points, autoModelName(points));
+}
+
+ChainModel ModelFolder::loadForAuto(const std::vector<cv::Point2d>& points,
+                                    const std::string& name) const {
+  const ModelFolder folder = has(name) ? *this : ModelFolder(ofThisPackage());
+  return withRoomForParts(folder.load(name), points);
 }
 
 }  // namespace chain_tracker

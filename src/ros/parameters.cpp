@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/ros/parameters.h"
 
+#include <filesystem>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -62,6 +63,15 @@ class Reader {
     }
   }
 
+  void readFolder(const std::string& key, std::string* value) {
+    read(key, true, value);
+    if (value->empty() || std::filesystem::is_directory(*value)) return;
+    faults_ += fault(key, tree_[key],
+                     "empty or a folder, and there is none at " +
+                         std::filesystem::absolute(*value).string()) +
+               "\n";
+  }
+
   void read(const std::string& key, double least, double most, double* value) {
     if (!has(key)) return;
     if (isNumber(tree_[key]) && numberFrom(tree_[key]) >= least && numberFrom(tree_[key]) <= most) {
@@ -107,7 +117,7 @@ TrackerParameters parametersFrom(const XmlRpcValue& tree) {
   TrackerParameters parameters;
   Reader reader(tree);
   reader.read("image_transport", false, &parameters.image_transport);
-  reader.read("models_folder", true, &parameters.models_folder);
+  reader.readFolder("models_folder", &parameters.models_folder);
   reader.read("default_model", false, &parameters.default_model);
   reader.read("default_id", false, &parameters.default_id);
   reader.read("init_timeout", 0.1, 600.0, &parameters.init_timeout);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/ros/model_folder.h"
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -35,6 +38,18 @@ TEST(ModelFolder, AutoFollowsTheShape) {
   EXPECT_EQ(folder.loadFor({{10, 10}, {10, 90}}, "auto").name, "bottle");
   EXPECT_EQ(folder.loadFor({{10, 10}, {50, 10}, {50, 90}, {10, 90}}, "auto").name, "box");
   EXPECT_EQ(folder.loadFor({{10, 10}, {10, 90}}, "cable").name, "cable");
+}
+
+TEST(ModelFolder, AutoTakesFromThePackageWhatTheFolderLacks) {
+  setenv("ROS_PACKAGE_PATH", CHAIN_TRACKER_SOURCE_DIR, 1);
+  const std::filesystem::path own = std::filesystem::path(testing::TempDir()) / "own_models";
+  std::filesystem::create_directories(own);
+  std::ofstream(own / "box.yaml") << "name: my_box\nsegments: [{layout: planar}]\n";
+  const ModelFolder folder(own.string());
+  EXPECT_EQ(folder.loadFor({{10, 10}, {10, 90}}, "auto").name, "bottle");
+  EXPECT_EQ(folder.loadFor({{10, 10}, {50, 10}, {50, 90}, {10, 90}}, "auto").name, "my_box");
+  EXPECT_THROW(folder.loadFor({{10, 10}, {10, 90}}, "bottle"), std::invalid_argument);
+  std::filesystem::remove_all(own);
 }
 
 TEST(ModelFolder, RefusesAnUnknownNameNamingThoseThereAre) {

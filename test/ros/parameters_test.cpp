@@ -49,7 +49,7 @@ TEST(Parameters, AreTheDefaultsWhereNoneIsSet) {
 TEST(Parameters, AreRead) {
   XmlRpcValue tree;
   tree["image_transport"] = "compressed";
-  tree["models_folder"] = "/models";
+  tree["models_folder"] = "/tmp";
   tree["default_model"] = "cable";
   tree["default_id"] = "hose";
   tree["init_timeout"] = 2;
@@ -58,7 +58,7 @@ TEST(Parameters, AreRead) {
   tree["threads"] = 3;
   const TrackerParameters parameters = parametersFrom(tree);
   EXPECT_EQ(parameters.image_transport, "compressed");
-  EXPECT_EQ(parameters.models_folder, "/models");
+  EXPECT_EQ(parameters.models_folder, "/tmp");
   EXPECT_EQ(parameters.default_model, "cable");
   EXPECT_EQ(parameters.default_id, "hose");
   EXPECT_EQ(parameters.init_timeout, 2.0);
@@ -91,6 +91,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"init_timeout", "5 s", "~init_timeout is '5 s', must be a number in [0.1, 600]"},
         Wrong{"threads", -1, "~threads is -1, must be an integer in [0, 256]"},
         Wrong{"pixel_size", -0.001, "~pixel_size is -0.001, must be a number in [1e-06, 1]"},
+        Wrong{"models_folder", "/no/such",
+              "~models_folder is '/no/such', must be empty or a folder, and there is none at "
+              "/no/such"},
+        Wrong{"models_folder", 7, "~models_folder is 7, must be a string"},
         Wrong{"default_id", 7, "~default_id is 7, must be a string"},
         Wrong{"default_id", "", "~default_id is '', must be a string that is not empty"}));
 

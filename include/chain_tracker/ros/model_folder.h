@@ -26,11 +26,17 @@ class ModelFolder {
   /// Throws std::invalid_argument: an unknown name, with the names there are, or a faulty file.
   ChainModel load(const std::string& name_or_file) const;
 
-  /// The same, "auto" standing for the model that the shape given asks for; models by name, but not
-  /// files, get fewer parts where the shape has no room for theirs (auto_model.h).
+  /// The same, "auto" standing for the model that the shape given asks for: of this folder, or of
+  /// this package where the folder has none of that name. Models by name, but not files, get fewer
+  /// parts where the shape has no room for theirs (auto_model.h).
   ChainModel loadFor(const std::vector<cv::Point2d>& points, const std::string& name_or_file) const;
 
+  /// The model of that name as "auto" takes it.
+  ChainModel loadForAuto(const std::vector<cv::Point2d>& points, const std::string& name) const;
+
  private:
+  bool has(const std::string& name) const;
+
   std::string path_;
 };
 
