@@ -18,8 +18,9 @@ constexpr std::uint32_t kPolygonQueueSize = 5;
 constexpr std::uint32_t kThreads = 2;
 /// By which the last click of a closed outline misses the first, at most [px].
 constexpr double kClosingGap = 5.0;
+constexpr char kAuto[] = "auto";
 
-bool isClosedRectangle(const std::vector<cv::Point2d>& points) {
+bool isClosedQuadrilateral(const std::vector<cv::Point2d>& points) {
   return points.size() == 5 && cv::norm(points.front() - points.back()) <= kClosingGap;
 }
 
@@ -72,10 +73,12 @@ void TargetCommands::noteImage(const std::string& fault) {
 }
 
 bool TargetCommands::setTarget(SetTarget::Request& request, SetTarget::Response& response) {
-  TargetRequest target{request.id, request.model, {}};
+  TargetRequest target{request.id.empty() ? parameters_.default_id : request.id,
+                       request.model.empty() ? parameters_.default_model : request.model,
+                       {}};
   for (const auto& point : request.points) target.points.emplace_back(point.x, point.y);
   try {
-    response.message = start(target, request.stamp);
+    response.message = start(target, models_.loadFor(target.points, target.model), request.stamp);
     response.success = true;
   } catch (const std::exception& error) {
     response.message = error.what();
@@ -84,27 +87,35 @@ bool TargetCommands::setTarget(SetTarget::Request& request, SetTarget::Response&
 }
 
 void TargetCommands::receivePolygon(const geometry_msgs::PolygonStampedConstPtr& polygon) {
-  TargetRequest target;
+  TargetRequest target{parameters_.default_id, parameters_.default_model, {}};
   for (const auto& point : polygon->polygon.points) target.points.emplace_back(point.x, point.y);
-  if (isClosedRectangle(target.points)) {
-    target.points.pop_back();
-    if (parameters_.default_model == "auto") target.model = "box";
-  }
   // Tools differ in whether they pass on the image's stamp or write the time of the click.
   const ros::Time& stamp = polygon->header.stamp;
   try {
-    start(target, history_->holds(stamp) ? stamp : ros::Time());
+    const bool is_box = isClosedQuadrilateral(target.points) && takesCorners(target.model);
+    if (is_box) target.points.pop_back();
+    const ChainModel model = is_box && target.model == kAuto
+                                 ? models_.loadForAuto(target.points, "box")
+                                 : models_.loadFor(target.points, target.model);
+    start(target, model, history_->holds(stamp) ? stamp : ros::Time());
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM(name_ << ": ~init_polygon is refused: " << error.what());
   }
 }
 
+/// Whether the model is a rectangle: the last point of any other outline counts.
+bool TargetCommands::takesCorners(const std::string& model) const {
+  if (model == kAuto) return true;
+  const ChainModel loaded = models_.load(model);
+  const Layout layout = loaded.segments.front().layout;
+  return loaded.segments.size() == 1 && !loaded.segment_per_edge &&
+         (layout == Layout::kElongated || layout == Layout::kPlanar);
+}
+
 /// Returns what was done; throws with the reason why not.
-std::string TargetCommands::start(TargetRequest request, const ros::Time& stamp) {
-  if (request.id.empty()) request.id = parameters_.default_id;
-  if (request.model.empty()) request.model = parameters_.default_model;
+std::string TargetCommands::start(const TargetRequest& request, const ChainModel& model,
+                                  const ros::Time& stamp) {
   if (paused_) throw std::runtime_error("the tracker is paused, call ~pause with false first");
-  const ChainModel model = models_.loadFor(request.points, request.model);
   if (stamp.isZero()) {
     startOnNextImage(request, model);
   } else {

@@ -27,7 +27,9 @@ BottlePose rightBottle() {
 
 class SetTargetTest : public testing::Test {
  protected:
-  SetTargetTest() : client_("tracker"), image_(scene_.with({leftBottle(), rightBottle()})) {}
+  explicit SetTargetTest(const std::string& tracker = "tracker",
+                         const std::string& image_topic = "image")
+      : client_(tracker, image_topic), image_(scene_.with({leftBottle(), rightBottle()})) {}
   void SetUp() override { ASSERT_TRUE(client_.ready()); }
   void TearDown() override {
     for (const std::string id : {"left", "right", "hand"}) client_.remove(id);
@@ -164,9 +166,11 @@ TEST_F(SetTargetTest, RefusesStampsItDoesNotHold) {
 
 class PolygonTest : public SetTargetTest {
  protected:
-  PolygonTest()
-      : publisher_(ros::NodeHandle().advertise<geometry_msgs::PolygonStamped>(
-            "tracker/init_polygon", 1)) {}
+  explicit PolygonTest(const std::string& tracker = "tracker",
+                       const std::string& image_topic = "image")
+      : SetTargetTest(tracker, image_topic),
+        publisher_(ros::NodeHandle().advertise<geometry_msgs::PolygonStamped>(
+            tracker + "/init_polygon", 1)) {}
 
   /// Whether the default object appears once the polygon was published.
   bool isTrackedAfter(const std::vector<cv::Point2d>& points, double seconds = kDeadline) {
@@ -204,6 +208,19 @@ TEST_F(PolygonTest, AClosedOutlineOfFourNeedNotBeExact) {
   const auto object = objectOf(client_.show(image_), "hand");
   EXPECT_EQ(object->model, "box");
   EXPECT_EQ(object->points.size(), 4u);
+}
+
+/// A tracker whose default model is no rectangle.
+class ContourTest : public PolygonTest {
+ protected:
+  ContourTest() : PolygonTest("contours", "contour_image") {}
+};
+
+TEST_F(ContourTest, KeepsTheLastPointOfAClosedContour) {
+  EXPECT_TRUE(isTrackedAfter({{208, 65}, {252, 65}, {252, 175}, {208, 175}, {209, 66}}));
+  const auto object = objectOf(client_.show(image_), "hand");
+  EXPECT_EQ(object->model, "lips");
+  EXPECT_EQ(object->points.size(), 5u);
 }
 
 TEST_F(PolygonTest, SurvivesNonsense) {

@@ -50,8 +50,9 @@ class TargetCommands {
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   void receivePolygon(const geometry_msgs::PolygonStampedConstPtr& polygon);
+  bool takesCorners(const std::string& model) const;
 
-  std::string start(TargetRequest request, const ros::Time& stamp);
+  std::string start(const TargetRequest& request, const ChainModel& model, const ros::Time& stamp);
   void startOnNextImage(const TargetRequest& request, const ChainModel& model);
   [[noreturn]] void refuseForWantOfAnImage(const std::string& reason) const;
 
