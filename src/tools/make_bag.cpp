@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes a video or a folder of images as a bag of sensor_msgs/Image. The same input gives the same
 // bytes: the stamps count from a fixed time.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -18,6 +19,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include "chain_tracker/evaluation/frame_source.h"
+#include "common/free_space.h"
 
 namespace fs = std::filesystem;
 
@@ -62,10 +64,20 @@ sensor_msgs::ImagePtr toMsg(const cv::Mat& frame, const ros::Time& stamp,
   return cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, frame).toImageMsg();
 }
 
+/// A bag holds every pixel: a video of a few megabytes can fill a disk.
+void requireRoom(const std::string& input, const Options& options) {
+  const std::unique_ptr<FrameSource> source = chain_tracker::openFrames(input);
+  SourceFrame first;
+  while (first.image.empty()) {
+    if (!source->next(first)) return;
+  }
+  const auto frames = static_cast<uintmax_t>(std::min(source->count(), options.max_frames));
+  chain_tracker::requireSpace(options.out, frames * first.image.total() * first.image.elemSize());
+}
+
 /// Returns the number of frames written. One that cannot be read is told and left out: the others
 /// keep their stamps.
-int writeBag(const std::string& file, FrameSource& source, double fps, const Options& options) {
-  rosbag::Bag bag(file, rosbag::bagmode::Write);
+int writeFrames(rosbag::Bag& bag, FrameSource& source, double fps, const Options& options) {
   int count = 0;
   SourceFrame frame;
   while (count < options.max_frames && source.next(frame)) {
@@ -82,19 +94,33 @@ int writeBag(const std::string& file, FrameSource& source, double fps, const Opt
   return count;
 }
 
+int writeBag(const std::string& file, FrameSource& source, double fps, const Options& options) {
+  auto bag = std::make_unique<rosbag::Bag>(file, rosbag::bagmode::Write);
+  try {
+    const int count = writeFrames(*bag, source, fps, options);
+    bag->close();
+    return count;
+  } catch (const rosbag::BagIOException& error) {
+    // Its destructor would write on, and end the process.
+    static_cast<void>(bag.release());
+    refuse(options.out, error.what());
+  }
+}
+
 void makeBag(const Options& options) {
   std::string fault;
   if (!ros::names::validate(options.topic, fault)) refuse("--topic " + options.topic, fault);
-  const std::unique_ptr<FrameSource> source =
-      chain_tracker::openFrames(options.video.empty() ? options.sequence : options.video);
+  const std::string& input = options.video.empty() ? options.sequence : options.video;
+  const std::unique_ptr<FrameSource> source = chain_tracker::openFrames(input);
   const double fps = chooseFps(*source, options);
+  requireRoom(input, options);
 
   // Under another name until it is whole, so that nobody takes half a bag for the real one.
   const std::string unfinished = options.out + ".part";
   int count = 0;
   try {
     count = writeBag(unfinished, *source, fps, options);
-    if (count == 0) refuse(options.video + options.sequence, "has no frames");
+    if (count == 0) refuse(input, "has no frames");
   } catch (const std::exception&) {
     fs::remove(unfinished);
     throw;

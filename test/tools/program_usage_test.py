@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the programs say of wrong options."""
+import resource
 import unittest
 
-from programs import run
+from programs import ProgramTest, run
 
 
 class Usage(unittest.TestCase):
@@ -35,6 +36,25 @@ class Usage(unittest.TestCase):
                 self.assert_refused(f"--points is '{points}', must be at least two points",
                                     "evaluate", "--sequence", "none", "--out", "none", "--points",
                                     points)
+
+
+class FullDisks(ProgramTest):
+    def test_a_scene_without_room_is_refused(self):
+        bag = self.folder / "scene.bag"
+        ended = run("synthesize", "--scene", "box", "--frames", 2000000000, "--bag", bag)
+        self.assertEqual(ended.returncode, 2, ended.stderr)
+        self.assertIn(f"{bag} would be 1843200000 MB, must be at most", ended.stderr)
+        self.assertFalse(bag.exists())
+
+    def test_a_disk_that_fills_meanwhile_leaves_no_part(self):
+        video = self.render("box", "box", 40)
+        bag = self.folder / "video.bag"
+        # A limit of the file's size stands for the full disk; Python ignores the signal of it.
+        ended = run("make_bag", "--sequence", video, "--out", bag, restore_signals=False,
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (10**6, 10**6)))
+        self.assertEqual(ended.returncode, 2, ended.stderr)
+        self.assertIn(f"make_bag: {bag}: Error writing to file", ended.stderr)
+        self.assertEqual(list(self.folder.glob("video.bag*")), [])
 
 
 if __name__ == "__main__":

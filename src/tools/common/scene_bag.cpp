@@ -9,6 +9,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include "chain_tracker/TrackedObjectArray.h"
+#include "free_space.h"
 
 namespace chain_tracker {
 namespace {
@@ -90,6 +91,9 @@ TrackedObject truthMsg(const SceneFrame& frame, int index, const std::string& mo
 
 void writeSceneBag(const SyntheticScene& scene, const SceneOptions& options,
                    const std::string& path) {
+  const auto frames = static_cast<std::uintmax_t>(options.frames);
+  const auto pixels = static_cast<std::uintmax_t>(options.size.area());
+  requireSpace(path, frames * pixels * (options.grey ? 1 : 3));
   rosbag::Bag bag(path, rosbag::bagmode::Write);
   for (int index = 0; index < options.frames; ++index) {
     const SceneFrame frame = scene.render(index);

@@ -16,7 +16,7 @@ constexpr const char* kSceneTruthTopic = "/ground_truth/objects";
 /// pictures (bgr8, or mono8 if options.grey) and, with the same stamps, the truth as a
 /// TrackedObjectArray. The object is left out of the array while it is out of view; its outline is
 /// its upright box, five corners of which the last is the first. Throws rosbag::BagException if the
-/// file cannot be written.
+/// file cannot be written, std::invalid_argument if the disk has no room for it.
 void writeSceneBag(const SyntheticScene& scene, const SceneOptions& options,
                    const std::string& path);
 
