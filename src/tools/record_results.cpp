@@ -241,6 +241,7 @@ class Recorder {
 
   void writeSummary() const {
     nlohmann::json summary = summary_.toJson();
+    summary["messages"] = frame_count_;  // those without the object, too
     summary["id"] = options_.id;
     summary["model"] = model_;
     writeJson((fs::path(options_.dir) / "summary.json").string(), summary);
