@@ -19,6 +19,7 @@ AppearanceCosts::AppearanceCosts(const AppearanceModel& model, const cv::Mat& im
                                  const ChainLayout& layout, const ChainState& initial)
     : model_(model),
       learned_(image, layout, model),
+      jump_(image),
       light_(model.light_rate),
       pixels_(learned_.palette()),
       looks_(layout.segments.size()) {
@@ -32,6 +33,7 @@ const PartAppearance& AppearanceCosts::lookOf(const ChainState& state, size_t pa
 
 void AppearanceCosts::show(const cv::Mat& image, SearchLight light) {
   shown_ = light;
+  if (model_.light_rate > 0.0) light_.jump(jump_.observe(image));
   pixels_.show(image, light == SearchLight::kLatest ? light_.gains() : ChannelGains());
 }
 

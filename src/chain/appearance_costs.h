@@ -16,6 +16,7 @@
 #include "chain_tracker/chain/part_costs.h"
 #include "chain_tracker/chain/texture_costs.h"
 #include "light_change.h"
+#include "light_jump.h"
 
 namespace chain_tracker {
 
@@ -75,6 +76,7 @@ class AppearanceCosts {
   AppearanceModel model_;
   ObjectAppearance learned_;
   std::vector<double> initial_orientations_;  // of the parts
+  LightJump jump_;
   LightChange light_;
   SearchLight shown_ = SearchLight::kLatest;
   FramePixels pixels_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "upper_median.h"
+
 namespace chain_tracker {
 namespace {
 
@@ -23,13 +25,6 @@ bool canTell(const ObjectColor& learned, const ObjectColor& seen) {
   return learned.share >= kLeastShare && seen.share >= kLeastSeen * learned.share;
 }
 
-/// Of an even number, the upper one in the middle.
-double upperMedianOf(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 void LightChange::observe(const std::vector<ObjectColor>& learned,
@@ -42,7 +37,14 @@ void LightChange::observe(const std::vector<ObjectColor>& learned,
     }
     if (ratios_.size() < kFewestParts) return;
     double& gain = gains_[static_cast<size_t>(channel)];
-    gain += rate_ * (std::clamp(upperMedianOf(ratios_), kLeastGain, kMostGain) - gain);
+    gain += rate_ * (std::clamp(takeUpperMedian(ratios_), kLeastGain, kMostGain) - gain);
+  }
+}
+
+void LightChange::jump(const cv::Vec3d& ratios) {
+  for (int channel = 0; channel < 3; ++channel) {
+    double& gain = gains_[static_cast<size_t>(channel)];
+    gain = std::clamp(gain / ratios[channel], kLeastGain, kMostGain);
   }
 }
 

@@ -22,6 +22,9 @@ class LightChange {
   /// tell nothing. O(parts).
   void observe(const std::vector<ObjectColor>& learned, const std::vector<ObjectColor>& seen);
 
+  /// Takes in that all light has changed at once by `ratios` of the channels.
+  void jump(const cv::Vec3d& ratios);
+
   /// By which the channels are to be multiplied, each in [1/2, 2].
   ChannelGains gains() const;
 

@@ -107,9 +107,8 @@ void TargetCommands::receivePolygon(const geometry_msgs::PolygonStampedConstPtr&
 bool TargetCommands::takesCorners(const std::string& model) const {
   if (model == kAuto) return true;
   const ChainModel loaded = models_.load(model);
-  const Layout layout = loaded.segments.front().layout;
   return loaded.segments.size() == 1 && !loaded.segment_per_edge &&
-         (layout == Layout::kElongated || layout == Layout::kPlanar);
+         isGrid(loaded.segments.front().layout);
 }
 
 /// Returns what was done; throws with the reason why not.

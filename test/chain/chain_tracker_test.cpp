@@ -107,6 +107,18 @@ TEST(ChainTracker, followsABoxInChangingLight) {
   }
 }
 
+TEST(ChainTracker, followsABoxWhileALampIsSwitched) {
+  const DrawnBox box;
+  ChainTracker tracker = startTracker(box);
+  for (int frame = 1; frame <= 60; ++frame) {
+    const double light = frame / 10 % 2 == 0 ? 1.0 : 0.55;
+    const Similarity motion{0.0, 1.0, kStart.translation + cv::Point2d(frame, 0.5 * frame)};
+    const ChainState& state = tracker.update(light * box.image(motion));
+    EXPECT_EQ(TrackingStatus::kTracking, state.status) << "frame " << frame;
+    EXPECT_GT(state.confidence, 0.8) << "frame " << frame;
+  }
+}
+
 /// Half of it is outside at first, on each side in turn.
 TEST(ChainTracker, followsABoxThatComesInOverTheBorder) {
   const DrawnBox box;

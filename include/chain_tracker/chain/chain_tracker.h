@@ -39,8 +39,10 @@ class ChainTracker {
   /// Time: linear in the number of parts; linear in the area of a part's search window. A frame in
   /// which the object begins to be in doubt takes three searches, every other one after it three
   /// or, for a single deformable segment, up to eight, the widest of them over 129 x 129 candidates
-  /// a part. Memory: after the first frames, none is allocated but for what is new: parts turned as
-  /// never before, windows of another size, searches of an object in doubt.
+  /// a part.
+  ///
+  /// Memory: after the first frames, none is allocated but for what is new: parts turned as never
+  /// before, windows of another size, searches of an object in doubt.
   const ChainState& update(const cv::Mat& image);
 
   const ChainState& state() const;
