@@ -3,15 +3,26 @@
 import os
 import socket
 import subprocess
+import time
 import unittest
 
-from programs import TOPIC, ProgramTest, points_in, run, summary_in, without_times
+from programs import PROGRAMS, TOPIC, ProgramTest, points_in, run, summary_in, without_times
 
 
 def free_port():
     with socket.socket() as candidate:
         candidate.bind(("", 0))
         return candidate.getsockname()[1]
+
+
+def wait_for(port):
+    """Until somebody listens there: rostopic, unlike nodes, does not wait for a master."""
+    for _ in range(300):
+        with socket.socket() as client:
+            if client.connect_ex(("127.0.0.1", port)) == 0:
+                return
+        time.sleep(0.1)
+    raise TimeoutError(f"nobody listens on port {port}")
 
 
 def environment_of(port, folder):
@@ -118,6 +129,7 @@ class Parameters(ProgramTest):
                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         cls.addClassCleanup(master.wait)
         cls.addClassCleanup(master.terminate)
+        wait_for(port)
 
     def refusal_of(self, program, *parameters):
         ended = run(program, *parameters, env=self.environment, timeout=30)
@@ -171,9 +183,12 @@ class Parameters(ProgramTest):
                       self.refusal_of("record_results", f"_dir:={folder}"))
 
     def test_no_message_tells_of_the_object(self):
+        # In a workspace that was configured before it was built, nobody has set that path yet.
+        messages = PROGRAMS.parent / "python3" / "dist-packages"
+        path = os.pathsep.join(filter(None, [str(messages), os.environ.get("PYTHONPATH")]))
         publisher = subprocess.Popen(
             ["rostopic", "pub", "--latch", "/objects", "chain_tracker/TrackedObjectArray",
-             "{objects: [{id: apple}, {id: zebra}]}"], env=self.environment,
+             "{objects: [{id: apple}, {id: zebra}]}"], env=dict(self.environment, PYTHONPATH=path),
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.addCleanup(publisher.wait)
         self.addCleanup(publisher.terminate)
