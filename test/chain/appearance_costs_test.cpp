@@ -40,6 +40,17 @@ class AppearanceCostsTest : public testing::Test {
     return costs;
   }
 
+  /// Comes to it so slowly that no change is one of the light all over the image at once.
+  void fadeTo(const cv::Mat& image) {
+    constexpr int kFrames = 30;
+    for (int frame = 1; frame <= kFrames; ++frame) {
+      const double share = static_cast<double>(frame) / kFrames;
+      cv::Mat faded;
+      cv::addWeighted(image_, 1.0 - share, image, share, 0.0, faded);
+      costs_.show(faded);
+    }
+  }
+
   /// Of the visible parts where they are.
   double costThere(const cv::Mat& image) {
     const SegmentCosts costs = costsIn(image, SearchStage::kFine, 1.0);
@@ -95,6 +106,7 @@ TEST_F(AppearanceCostsTest, partsThatAreHiddenDoNotTellTheLight) {
                                      [](const PartState& part) { return part.visible; });
   ASSERT_GE(visible, 6);
   ASSERT_LT(2 * visible, static_cast<long>(state_.parts.size()));
+  fadeTo(seen);
   const double before = costThere(seen);
   for (int frame = 0; frame < 30; ++frame) {
     costs_.show(seen);
@@ -103,8 +115,17 @@ TEST_F(AppearanceCostsTest, partsThatAreHiddenDoNotTellTheLight) {
   EXPECT_LT(costThere(seen), 0.7 * before);
 }
 
+TEST_F(AppearanceCostsTest, lightThatChangesAllOverTheImageIsTold) {
+  const cv::Mat dim = 0.6 * image_;
+  const double at_once = costThere(dim);
+  costThere(image_);
+  fadeTo(dim);
+  EXPECT_LT(at_once, 0.3 * costThere(dim));
+}
+
 TEST_F(AppearanceCostsTest, theLightOfTheFirstFrameIsKeptOnlyWhereTheObjectWasFoundInIt) {
   const cv::Mat dim = 0.6 * image_;
+  fadeTo(dim);
   const double in_first_light = costThere(dim);
   for (int frame = 0; frame < 30; ++frame) {
     costs_.show(dim);
