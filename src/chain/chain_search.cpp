@@ -215,7 +215,7 @@ void ChainSearch::lookFinely(const ChainMatch& coarse_match) {
   }
 }
 
-/// Around the centres.
+/// Makes `candidates` those around `centers_`, with what they cost.
 void ChainSearch::lookAround(const std::vector<SegmentPose>& poses, int step, double radius,
                              SearchStage stage, Candidates& candidates) {
   for (size_t m = 0; m < segments(); ++m) {
