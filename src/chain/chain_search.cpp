@@ -133,24 +133,42 @@ void ChainSearch::find(const ChainState& sought, const SearchRange& range, Found
 void ChainSearch::findAnywhere(const ChainState& sought, double reach, const SearchRange& range,
                                FoundChain& found) {
   Stopwatch watch;
-  ChainState placed = sought;
-  const std::vector<Similarity> motions = placements(sought, reach);
-  for (size_t m = 0; m < segments(); ++m) moveSegment(motions[m], m, placed);
+  const Linkage links = linkageOf(sought);
+  const std::vector<Similarity> motions =
+      placement_search_.find(links.segments, links.hinges, reach, appearance_.pixels());
   const double placing = watch.lap();
-  find(placed, range, found);
+  findMoved(sought, motions, range, found);
   found.state.times.part_costs += placing;
 }
 
-std::vector<Similarity> ChainSearch::placements(const ChainState& sought, double reach) {
+void ChainSearch::findHung(const ChainState& sought, const std::vector<bool>& seen,
+                           const SearchRange& range, FoundChain& found) {
+  Stopwatch watch;
+  const Linkage links = linkageOf(sought);
+  const std::vector<Similarity> motions =
+      placement_search_.hang(links.segments, links.hinges, seen, appearance_.pixels());
+  const double placing = watch.lap();
+  findMoved(sought, motions, range, found);
+  found.state.times.part_costs += placing;
+}
+
+ChainSearch::Linkage ChainSearch::linkageOf(const ChainState& state) {
   std::vector<SegmentPose> poses;
-  takePoses(sought, poses);
-  std::vector<RigidSegment> rigid;
-  std::vector<Hinge> hinges;
+  takePoses(state, poses);
+  Linkage links;
   for (size_t m = 0; m < segments(); ++m) {
-    rigid.push_back({votersOf(sought, m), sideOf(m, poses[m].scale), poses[m]});
-    if (m > 0) hinges.push_back({jointPosition(layout_, sought, m - 1), jointOf(model_, m - 1)});
+    links.segments.push_back({votersOf(state, m), sideOf(m, poses[m].scale), poses[m]});
+    if (m == 0) continue;
+    links.hinges.push_back({jointPosition(layout_, state, m - 1), jointOf(model_, m - 1)});
   }
-  return placement_search_.find(rigid, hinges, reach, appearance_.pixels());
+  return links;
+}
+
+void ChainSearch::findMoved(const ChainState& sought, const std::vector<Similarity>& motions,
+                            const SearchRange& range, FoundChain& found) {
+  ChainState moved = sought;
+  for (size_t m = 0; m < segments(); ++m) moveSegment(motions[m], m, moved);
+  find(moved, range, found);
 }
 
 /// Every so many parts, from end to end.

@@ -61,7 +61,18 @@ class ChainSearch {
   void findAnywhere(const ChainState& sought, double reach, const SearchRange& range,
                     FoundChain& found);
 
+  /// As find(), with the segments that are not `seen`, some of them, hanging from the others at
+  /// whatever angles they fit best.
+  void findHung(const ChainState& sought, const std::vector<bool>& seen, const SearchRange& range,
+                FoundChain& found);
+
  private:
+  /// The object as links, of which some parts are asked.
+  struct Linkage {
+    std::vector<RigidSegment> segments;
+    std::vector<Hinge> hinges;
+  };
+
   /// What is looked at: one entry a segment.
   struct Candidates {
     explicit Candidates(size_t count) : grids(count), segments(count), costs(count), poses(count) {}
@@ -83,7 +94,9 @@ class ChainSearch {
   void joinCosts(size_t m, Candidates& candidates) const;
   void keepEdgeCosts(const ChainMatch& coarse_match);
   void robustify(Candidates& candidates) const;
-  std::vector<Similarity> placements(const ChainState& sought, double reach);
+  Linkage linkageOf(const ChainState& state);
+  void findMoved(const ChainState& sought, const std::vector<Similarity>& motions,
+                 const SearchRange& range, FoundChain& found);
   std::vector<Voter> votersOf(const ChainState& state, size_t m);
   const ChainMatch& matched(const std::vector<PoseGrid>& poses,
                             const std::vector<SegmentCandidates>& candidates,

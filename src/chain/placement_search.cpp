@@ -19,6 +19,8 @@ constexpr double kMostCells = 160.0;
 constexpr double kCellsPerTurn = 3.0;
 constexpr double kFewestTurns = 16.0;
 constexpr double kMostTurns = 128.0;
+/// Where the others stay: those that hang are tried at few cells, so it takes no time.
+constexpr int kFineTurns = 128;
 /// Of a joint by a half turn, of what the segment behind it costs if all hidden: links that look
 /// alike must not fold onto one another.
 constexpr double kBendCost = 0.3;
@@ -116,12 +118,12 @@ std::vector<cv::Mat1f> costsOf(const RigidSegment& segment, const Cells& cells,
 class ChainPlacement {
  public:
   ChainPlacement(const std::vector<RigidSegment>& segments, const std::vector<Hinge>& hinges,
-                 const Cells& cells, const std::vector<std::vector<cv::Mat1f>>& costs)
+                 const Cells& cells, const std::vector<std::vector<cv::Mat1f>>& costs, int turns)
       : segments_(segments),
         hinges_(hinges),
         cells_(cells),
         costs_(costs),
-        turns_(turnsFor(segments, cells.step)),
+        turns_(turns),
         motions_(segments.size()) {}
 
   /// Returns the cost of all.
@@ -133,11 +135,18 @@ class ChainPlacement {
     return cost;
   }
 
+  void hangUnseen(const std::vector<bool>& seen) {
+    const auto first = std::find(seen.begin(), seen.end(), true) - seen.begin();
+    const auto anchor = static_cast<size_t>(first);
+    for (size_t m = anchor + 1; m < segments_.size(); ++m) {
+      if (!seen[m]) hang(m, m - 1, hinges_[m - 1]);
+    }
+    for (size_t m = anchor; m-- > 0;) hang(m, m + 1, hinges_[m]);
+  }
+
   const std::vector<Similarity>& motions() const { return motions_; }
 
  private:
-  double angleOf(int turn) const { return wrapAngle(2.0 * CV_PI * turn / turns_); }
-
   void placeFreely(size_t m) {
     const cv::Point2d middle = middleOf(segments_[m]);
     std::vector<cv::Point2d> offsets;
@@ -145,7 +154,8 @@ class ChainPlacement {
       offsets.push_back((voter.position - middle) / cells_.step);
     }
     const Placement best = cheapestPlacement(costs_[m], offsets, cells_.middles, turns_);
-    motions_[m] = rigidMotion(angleOf(best.turn), middle, cells_.centerOf(best.middle));
+    motions_[m] =
+        rigidMotion(2.0 * CV_PI * best.turn / turns_, middle, cells_.centerOf(best.middle));
   }
 
   /// A voter off the map is hidden.
@@ -166,7 +176,7 @@ class ChainPlacement {
     const cv::Point2d joint = motions_[from].apply(hinge.position);
     double least = kInfinity;
     for (int turn = 0; turn < turns_; ++turn) {
-      const double bend = angleOf(turn);
+      const double bend = wrapAngle(2.0 * CV_PI * turn / turns_);
       const Similarity motion =
           rigidMotion(wrapAngle(motions_[from].angle + bend), hinge.position, joint);
       const double cost = costOf(m, motion) + kBendCost * hidden * std::abs(bend) / CV_PI +
@@ -228,7 +238,7 @@ std::vector<Similarity> PlacementSearch::find(const std::vector<RigidSegment>& s
   for (const RigidSegment& segment : segments) {
     costs.push_back(costsOf(segment, cells, model_, pixels, workspace_));
   }
-  ChainPlacement placement(segments, hinges, cells, costs);
+  ChainPlacement placement(segments, hinges, cells, costs, turnsFor(segments, cells.step));
   std::vector<Similarity> best;
   double least = kInfinity;
   for (size_t anchor = 0; anchor < segments.size(); ++anchor) {
@@ -238,6 +248,20 @@ std::vector<Similarity> PlacementSearch::find(const std::vector<RigidSegment>& s
     best = placement.motions();
   }
   return best;
+}
+
+std::vector<Similarity> PlacementSearch::hang(const std::vector<RigidSegment>& segments,
+                                              const std::vector<Hinge>& hinges,
+                                              const std::vector<bool>& seen, FramePixels& pixels) {
+  const auto unseen = static_cast<double>(std::count(seen.begin(), seen.end(), false));
+  const Cells cells = cellsAround(segments, 2.0 * unseen * reachOf(segments), image_);
+  std::vector<std::vector<cv::Mat1f>> costs(segments.size());
+  for (size_t m = 0; m < segments.size(); ++m) {
+    if (!seen[m]) costs[m] = costsOf(segments[m], cells, model_, pixels, workspace_);
+  }
+  ChainPlacement placement(segments, hinges, cells, costs, kFineTurns);
+  placement.hangUnseen(seen);
+  return placement.motions();
 }
 
 }  // namespace chain_tracker

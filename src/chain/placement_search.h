@@ -63,6 +63,12 @@ class PlacementSearch {
                                const std::vector<Hinge>& hinges, double radius,
                                FramePixels& pixels);
 
+  /// The same where those that are `seen`, at least one, stay as they are: the others hang from
+  /// them.
+  std::vector<Similarity> hang(const std::vector<RigidSegment>& segments,
+                               const std::vector<Hinge>& hinges, const std::vector<bool>& seen,
+                               FramePixels& pixels);
+
  private:
   AppearanceModel model_;
   cv::Rect2d image_;

@@ -145,6 +145,27 @@ TEST(ChainTracker, articulatedModelFollowsEveryLink) {
   }
 }
 
+TEST(ChainTracker, findsALinkThatTurnedWhileItWasHidden) {
+  const cv::Point2d start(70.0, 150.0);
+  std::vector<double> angles = {0.1, -0.3, 0.2};
+  const DrawnArm arm(3);
+  const DrawnArm without_tip(2);
+  ChainTracker tracker(armModel(3), arm.image(start, angles), DrawnArm::vertices(start, angles));
+  for (int frame = 0; frame < 12; ++frame) {
+    angles[0] += 0.03;
+    angles[1] -= 0.05;
+    tracker.update(without_tip.image(start, angles));
+  }
+  EXPECT_EQ(TrackingStatus::kOccluded, tracker.state().status);
+  angles[2] -= 2.2;
+  for (int frame = 0; frame < 10; ++frame) tracker.update(arm.image(start, angles));
+  EXPECT_EQ(TrackingStatus::kTracking, tracker.state().status);
+  const std::vector<cv::Point2d> truth = DrawnArm::vertices(start, angles);
+  for (size_t i = 0; i < truth.size(); ++i) {
+    EXPECT_LT(cv::norm(tracker.state().points[i].position - truth[i]), 2.0) << "vertex " << i;
+  }
+}
+
 TEST(ChainTracker, takesTheWidthOfLinksFromTheFirstImage) {
   cv::Mat3b image(240, 320, cv::Vec3b(60, 120, 40));
   image(cv::Rect(84, 50, 33, 160)).setTo(cv::Scalar(40, 60, 200));

@@ -62,8 +62,21 @@ class Search {
         search_(model.appearance, image.size()) {}
 
   std::vector<Similarity> find(const cv::Mat& image, const JointModel& limits = JointModel()) {
-    std::vector<RigidSegment> segments;
-    std::vector<Hinge> hinges;
+    learnLinks(limits);
+    FramePixels pixels(appearance_.palette(), image);
+    return search_.find(segments_, hinges_, 200.0, pixels);
+  }
+
+  std::vector<Similarity> hang(const cv::Mat& image, const std::vector<bool>& seen) {
+    learnLinks(JointModel());
+    FramePixels pixels(appearance_.palette(), image);
+    return search_.hang(segments_, hinges_, seen, pixels);
+  }
+
+ private:
+  void learnLinks(const JointModel& limits) {
+    segments_.clear();
+    hinges_.clear();
     size_t part = 0;
     for (const SegmentLayout& layout : layout_.segments) {
       RigidSegment segment;
@@ -73,17 +86,16 @@ class Search {
         segment.voters.push_back({layout.image_from_segment.apply(own.position),
                                   appearance_.part(part++, 0.0).colors, 4.0});
       }
-      segments.push_back(segment);
-      if (layout.exit) hinges.push_back({layout.image_from_segment.apply(*layout.exit), limits});
+      segments_.push_back(segment);
+      if (layout.exit) hinges_.push_back({layout.image_from_segment.apply(*layout.exit), limits});
     }
-    FramePixels pixels(appearance_.palette(), image);
-    return search_.find(segments, hinges, 200.0, pixels);
   }
 
- private:
   ChainLayout layout_;
   ObjectAppearance appearance_;
   PlacementSearch search_;
+  std::vector<RigidSegment> segments_;
+  std::vector<Hinge> hinges_;
 };
 
 /// Learns the box at `start`.
@@ -139,6 +151,32 @@ TEST(PlacementSearch, doesNotBendBeyondAJointsLimits) {
   EXPECT_NEAR(1.6, wrapAngle(free[1].angle + 0.6 - free[0].angle - 0.2), 0.2);
   const std::vector<Similarity> limited = search.find(bent, {0.0, 1.0});
   EXPECT_LT(wrapAngle(limited[1].angle + 0.6 - limited[0].angle - 0.2), 1.2);
+}
+
+TEST(PlacementSearch, hangsWhatIsNotSeenFromWhatIs) {
+  const cv::Point2d start(140.0, 110.0);
+  const std::vector<double> angles = {0.2, 0.6, 0.1};
+  const DrawnArm arm(3);
+  const std::vector<cv::Point2d> before = DrawnArm::vertices(start, angles);
+  Search search(linksOf(), arm.image(start, angles), before);
+
+  const std::vector<double> ahead = {0.2, 2.0, -2.6};
+  const std::vector<cv::Point2d> after = DrawnArm::vertices(start, ahead);
+  const std::vector<Similarity> on = search.hang(arm.image(start, ahead), {true, false, false});
+  EXPECT_EQ(0.0, on[0].angle);
+  for (size_t m = 1; m < 3; ++m) {
+    EXPECT_NEAR(0.0, wrapAngle(on[m].angle - ahead[m] + angles[m]), 0.2) << m;
+    EXPECT_LT(cv::norm(on[m].apply(before[m + 1]) - after[m + 1]), 10.0) << m;
+  }
+
+  // The last link stays where it was.
+  const std::vector<double> behind = {1.2, -0.8, 0.1};
+  const cv::Point2d first = before[2] - DrawnArm::vertices({0.0, 0.0}, behind)[2];
+  const std::vector<Similarity> back = search.hang(arm.image(first, behind), {false, false, true});
+  EXPECT_EQ(0.0, back[2].angle);
+  for (size_t m = 0; m < 2; ++m) {
+    EXPECT_NEAR(0.0, wrapAngle(back[m].angle - behind[m] + angles[m]), 0.2) << m;
+  }
 }
 
 TEST(PlacementSearch, placesTheMiddleInsideTheImageWhateverItShows) {

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "second_look.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "line_motion.h"
+#include "state_motion.h"
+
+namespace chain_tracker {
+namespace {
+
+/// Reach of the widest search, fraction of the image diagonal: for an object in doubt, and for one
+/// that is lost and may come back anywhere.
+constexpr double kWidestInDoubt = 0.5;
+constexpr double kWidestWhenLost = 1.0;
+/// A doubtful object is looked for elsewhere, and a hidden segment at other angles, in every so
+/// many frames.
+constexpr int kFramesPerLook = 2;
+/// How much more likeness it takes to believe that it is there, or that a line is.
+constexpr double kClearlyBetter = 0.1;
+constexpr double kBetterLine = 0.05;
+/// The same of segments that hang otherwise, of what they can look at most.
+constexpr double kBetterSegment = 0.3;
+/// Of an object in doubt, to each side, at least [rad].
+constexpr double kLeastTurn = 0.4;
+/// Of the usual likeness: a state that is trusted to be right, by which it is looked for later.
+constexpr double kTrusted = 0.8;
+/// The same of a line, which is in doubt until then: found again shifted along itself it looks much
+/// like the object, but does not slide back by itself.
+constexpr double kTrustedLine = 0.95;
+/// A line that is found again may have bent by so much more than between two frames, and that in up
+/// to so many steps, as long as each makes it look more as learned by kLeastGain.
+constexpr double kLoose = 3.0;
+constexpr int kRefits = 4;
+constexpr double kLeastGain = 0.01;
+/// What is hidden at the end of a line, it slides by in turn: all, half and a quarter of that, as
+/// something may cover a share of it.
+constexpr int kSlides = 3;
+constexpr int kFewestPlaces = 2;
+/// Share of the line that must stay where the line was seen.
+constexpr double kLeastOverlap = 0.25;
+/// Of the object's usual confidence: that of a segment which is where it was found.
+constexpr double kSeen = 0.5;
+
+}  // namespace
+
+SecondLook::SecondLook(const ChainModel& model, const ChainLayout& layout,
+                       const cv::Size& image_size, const ChainState& initial, ChainSearch& search,
+                       ObjectShape& shape)
+    : model_(model),
+      is_line_(layout.segments.size() == 1 &&
+               layout.segments.front().layout == Layout::kDeformable),
+      image_size_(image_size),
+      search_(search),
+      shape_(shape),
+      trusted_(initial) {}
+
+void SecondLook::reconsider(const ChainState& before, FoundChain& found) {
+  times_ = StepTimes();
+  frame_ = (frame_ + 1) % kFramesPerLook;
+  if (isDoubtful(found)) {
+    ++frames_doubted_;
+    lookElsewhere(before, found);
+  } else if (frame_ == 0) {
+    tryOtherBends(found);
+  }
+  if (!isDoubtful(found)) frames_doubted_ = 0;
+}
+
+void SecondLook::lookElsewhere(const ChainState& before, FoundChain& found) {
+  if (frames_doubted_ == 1) {
+    for (const int side : {-1, 1}) preferBetter(turned(side, before), found);
+  } else if (frames_doubted_ % kFramesPerLook == 0) {
+    preferBetter(look(frames_doubted_ / kFramesPerLook, kWidestInDoubt), found);
+  } else if (is_line_) {
+    tryAlongLine(found);
+  } else {
+    tryOtherBends(found);
+  }
+}
+
+FoundChain SecondLook::findLost(int frames_lost) {
+  times_ = StepTimes();
+  return look(frames_lost, kWidestWhenLost);
+}
+
+void SecondLook::observe(const FoundChain& found) {
+  const double least = is_line_ ? kTrustedLine : kTrusted;
+  if (found.likeness >= least * search_.expectations().usualLikeness()) trusted_ = found.state;
+}
+
+bool SecondLook::isDoubtful(const FoundChain& found) const {
+  const double doubt_below = model_.search.doubt_below;
+  const bool must_reassure = is_line_ && frames_doubted_ > 0;
+  const double least = must_reassure ? std::max(doubt_below, kTrustedLine) : doubt_below;
+  return found.likeness < least * search_.expectations().usualLikeness();
+}
+
+void SecondLook::preferBetter(FoundChain other, FoundChain& found) const {
+  preferBetter(std::move(other), is_line_ ? kBetterLine : kClearlyBetter, found);
+}
+
+/// A chain elsewhere is believed in if it is better by `gain` and would do to end a loss.
+void SecondLook::preferBetter(FoundChain other, double gain, FoundChain& found) const {
+  const bool is_sure = other.state.confidence >= model_.search.found_above;
+  if (is_sure && other.likeness > found.likeness + gain) found = std::move(other);
+}
+
+/// Of a search that has failed so often [px]: twice as far every time, up to `widest`.
+double SecondLook::reach(int failures, double widest) const {
+  const double diagonal = std::hypot(image_size_.width, image_size_.height);
+  const double farther = std::ldexp(model_.search.radius, std::min(failures, 16));
+  return diagonal * std::min(farther, std::max(model_.search.radius, widest));
+}
+
+FoundChain SecondLook::find(const ChainState& sought, const SearchRange& range) {
+  FoundChain found;
+  search_.find(sought, range, found);
+  times_ += found.state.times;
+  return found;
+}
+
+/// Around where the object was last seen for sure: a chain as it was then or, every other time,
+/// one around wherever its segments fit best.
+FoundChain SecondLook::look(int failures, double widest) {
+  const double farthest = reach(failures, widest);
+  FoundChain found;
+  if (failures % 2 == 0) {
+    search_.findAnywhere(trusted_, farthest, {searchRadius(), 0.0}, found);
+    times_ += found.state.times;
+  } else {
+    found = find(trusted_, {farthest, 0.0});
+  }
+  if (is_line_) found = refitted(std::move(found));
+  if (found.state.confidence >= model_.search.found_above) preferBetter(reversed(found), found);
+  return found;
+}
+
+/// Just beyond what the hypotheses cover, to one side.
+FoundChain SecondLook::turned(int side, const ChainState& before) {
+  const SegmentModel& model = model_.segments.front();
+  const double covered = model.orientation_hypotheses * model.orientation_step;
+  ChainState sought = before;
+  turnWhole(side * std::clamp(covered, kLeastTurn, CV_PI), sought);
+  return find(sought, {reach(1, kWidestInDoubt), 0.0});
+}
+
+/// What is found of an object whose two ends look alike may be the wrong way round.
+FoundChain SecondLook::reversed(const FoundChain& found) {
+  ChainState sought = found.state;
+  if (is_line_) {
+    reverse(sought);
+    shape_.carry(sought);
+  } else {
+    turnWhole(CV_PI, sought);
+  }
+  return find(sought, {searchRadius(), 0.0});
+}
+
+/// A line bent along what it was found on, then as stiff as ever: one that may bend at will fits
+/// anything. Springs that remember where each edge pointed keep it from sliding along itself.
+FoundChain SecondLook::refitted(FoundChain found) {
+  for (int i = 0; i < kRefits; ++i) {
+    shape_.carry(found.state);
+    FoundChain bent = find(found.state, {searchRadius(), 0.0, kLoose});
+    if (bent.likeness < found.likeness + kLeastGain) break;
+    found = std::move(bent);
+  }
+  shape_.carry(found.state);
+  return find(found.state, {searchRadius(), 0.0});
+}
+
+/// It may lie shifted along itself, one end beyond that of the object, or the wrong way round.
+void SecondLook::tryAlongLine(FoundChain& found) {
+  const int hidden = hiddenEnd(found.state);
+  const int share = 1 << (frames_doubted_ / kFramesPerLook - 1) % kSlides;
+  const int places = std::max(kFewestPlaces, std::abs(hidden) / share);
+  const auto most = (1.0 - kLeastOverlap) * static_cast<double>(found.state.parts.size());
+  if (std::abs(hidden) >= kFewestPlaces && places <= most) {
+    ChainState sought = found.state;
+    slide(hidden > 0 ? places : -places, sought);
+    shape_.carry(sought);
+    preferBetter(refitted(find(sought, {searchRadius(), 0.0, kLoose})), found);
+  }
+  preferBetter(reversed(found), found);
+}
+
+/// Segments that turned while they were hidden hang at angles that no hypothesis reaches; a few of
+/// many leave the object itself beyond doubt.
+void SecondLook::tryOtherBends(FoundChain& found) {
+  const double least = kSeen * search_.expectations().usualConfidence();
+  is_seen_.clear();
+  for (const SegmentState& segment : found.state.segments) {
+    is_seen_.push_back(segment.confidence >= least);
+  }
+  const auto hidden = std::count(is_seen_.begin(), is_seen_.end(), false);
+  const double share = static_cast<double>(hidden) / static_cast<double>(is_seen_.size());
+  if (share == 0.0 || share == 1.0) return;
+  FoundChain hung;
+  search_.findHung(found.state, is_seen_, {searchRadius(), 0.0}, hung);
+  times_ += hung.state.times;
+  preferBetter(std::move(hung), std::min(kClearlyBetter, kBetterSegment * share), found);
+}
+
+}  // namespace chain_tracker

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "chain/line_motion.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace chain_tracker {
+namespace {
+
+/// Parts 10 px apart along +x, from x = 0 on, each with its index for a confidence; one letter a
+/// part: v where it is visible, else h.
+ChainState lineOf(const std::string& seen) {
+  ChainState line;
+  for (size_t k = 0; k < seen.size(); ++k) {
+    PartState part;
+    part.position = {10.0 * double(k), 5.0};
+    part.confidence = double(k);
+    part.visible = seen[k] == 'v';
+    line.parts.push_back(part);
+  }
+  line.segments.resize(1);
+  line.segments[0].part_count = static_cast<int>(seen.size());
+  line.segments[0].image_from_segment = {0.5, 1.0, {20.0, 5.0}};
+  return line;
+}
+
+TEST(HiddenEnd, isTheOneThatMoreIsHiddenOf) {
+  EXPECT_EQ(0, hiddenEnd(lineOf("vvvvv")));
+  EXPECT_EQ(0, hiddenEnd(lineOf("vhhvv")));
+  EXPECT_EQ(2, hiddenEnd(lineOf("hhvhv")));
+  EXPECT_EQ(2, hiddenEnd(lineOf("hhvvh")));
+  EXPECT_EQ(-3, hiddenEnd(lineOf("vvhhh")));
+  EXPECT_EQ(-2, hiddenEnd(lineOf("hvvhh")));
+  EXPECT_EQ(0, hiddenEnd(lineOf("hhhh")));
+}
+
+TEST(Slide, movesEveryPartToWhereAnotherWas) {
+  ChainState line = lineOf("hhvvv");
+  slide(2, line);
+  for (size_t k = 0; k < 5; ++k) {
+    EXPECT_NEAR(0.0, cv::norm(line.parts[k].position - cv::Point2d(10.0 * double(k + 2), 5.0)),
+                1e-9)
+        << k;
+    EXPECT_TRUE(line.parts[k].visible) << k;
+  }
+  slide(-2, line);
+  EXPECT_NEAR(0.0, cv::norm(line.parts[0].position - cv::Point2d(0.0, 5.0)), 1e-9);
+  EXPECT_NEAR(0.0, cv::norm(line.parts[4].position - cv::Point2d(40.0, 5.0)), 1e-9);
+}
+
+TEST(Slide, goesOnTheWayThatTheEndLeads) {
+  ChainState line = lineOf("vvvvv");
+  for (size_t k = 2; k < 5; ++k) line.parts[k].position = {10.0, 10.0 * double(k) - 5.0};
+  slide(1, line);
+  EXPECT_NEAR(0.0, cv::norm(line.parts[4].position - cv::Point2d(10.0, 45.0)), 1e-9);
+  line = lineOf("vv");
+  slide(-1, line);
+  EXPECT_NEAR(0.0, cv::norm(line.parts[0].position - cv::Point2d(-10.0, 5.0)), 1e-9);
+  EXPECT_NEAR(0.0, cv::norm(line.parts[1].position - cv::Point2d(0.0, 5.0)), 1e-9);
+}
+
+TEST(Reverse, exchangesTheEnds) {
+  ChainState line = lineOf("hvvvv");
+  reverse(line);
+  EXPECT_EQ(cv::Point2d(40.0, 5.0), line.parts[0].position);
+  EXPECT_EQ(4.0, line.parts[0].confidence);
+  EXPECT_FALSE(line.parts[4].visible);
+  EXPECT_NEAR(0.5 - CV_PI, line.segments[0].image_from_segment.angle, 1e-9);
+}
+
+}  // namespace
+}  // namespace chain_tracker
