@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "chain_nodes.h"
+#include "length_evidence.h"
 #include "robust_costs.h"
 #include "state_motion.h"
 #include "stopwatch.h"
@@ -95,6 +96,14 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
   for (const SegmentLayout& segment : layout_) {
     variance_shares_.insert(variance_shares_.end(), segment.parts.size(),
                             isGrid(segment.layout) ? kCellVariance : 1.0);
+  }
+  for (const SegmentState& segment : initial.segments) {
+    std::vector<RootHistogram> colors;
+    for (int k = 0; k < segment.part_count; ++k) {
+      const auto part = static_cast<size_t>(segment.first_part + k);
+      colors.push_back(appearance_.learned().part(part, 0.0).colors);
+    }
+    length_shares_.push_back(lengthEvidence(colors));
   }
 }
 
@@ -344,7 +353,7 @@ void ChainSearch::fillIn(const std::vector<RefinedPart>& parts, ChainState& foun
   for (size_t m = 0; m < segments(); ++m) {
     SegmentState& segment = found.segments[m];
     segment.image_from_segment = fitSegment(layout_[m], finePoses(model_.segments[m], poses_[m]),
-                                            {found, segment}, fit_workspace_);
+                                            {found, segment}, length_shares_[m], fit_workspace_);
     segment.confidence = expectations_.meanConfidence(
         found.parts, static_cast<size_t>(segment.first_part), layout_[m].parts.size());
   }

@@ -113,6 +113,7 @@ class ChainSearch {
   PartOverlaps overlaps_;
   SpringRelaxation springs_;
   PlacementSearch placement_search_;
+  std::vector<double> length_shares_;    // of the segments, for fitSegment()
   std::vector<double> variance_shares_;  // of the parts, in what the chain alone would leave
   // Of the search that goes on.
   ChainState sought_;

@@ -63,7 +63,7 @@ double clampedScale(double from, double to, double limit) {
 }  // namespace
 
 Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses, const SegmentParts& parts,
-                      SegmentFitWorkspace& workspace) {
+                      double length_share, SegmentFitWorkspace& workspace) {
   const SegmentPose& searched = poses.middle;
   auto& [reference, found, confidences, weights] = workspace;
   reference.clear();
@@ -83,7 +83,8 @@ Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses, const 
   }
   Similarity fit = fitSimilarity(reference, found, weights);
   if (is_deformable) {
-    fit.scale = lengthRatio(reference, found, weights);
+    const double change = lengthRatio(reference, found, weights) / searched.scale;
+    fit.scale = searched.scale * std::pow(change, length_share);
   } else if (poses.scales == 1) {
     fit.scale = remembered(fit.scale, scaleInformation(parts, fit.translation));
   }

@@ -22,8 +22,10 @@ struct SegmentFitWorkspace {
 /// weighted by confidence; at most half a step of `poses` from their middle: beyond it, the energy
 /// knows better than the parts, which lean inwards wherever the object is uniform.
 /// A rigid segment of which a single scale is searched, so that no energy tells it, returns to that
-/// of the first frame, 1, as far as the covariances of its parts leave the scale open. O(parts).
+/// of the first frame, 1, as far as the covariances of its parts leave the scale open. One that
+/// bends anywhere follows `length_share` of the change of its length, on a log scale; that of
+/// lengthEvidence(). O(parts).
 Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses, const SegmentParts& parts,
-                      SegmentFitWorkspace& workspace);
+                      double length_share, SegmentFitWorkspace& workspace);
 
 }  // namespace chain_tracker

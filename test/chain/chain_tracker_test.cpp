@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "chain_tracker/chain/auto_model.h"
 #include "support/drawn_box.h"
@@ -235,6 +236,39 @@ TEST(ChainTracker, deformableModelFollowsAPolyline) {
   }
   for (size_t i = 0; i < line.size(); ++i) {
     EXPECT_LT(cv::norm(tracker.state().points[i].position - placed(pose)[i]), kFewPixels);
+  }
+}
+
+/// Nothing but its ends tells how long it is.
+TEST(ChainTracker, lineOfOneColorKeepsItsLengthWhileItTurns) {
+  cv::RNG random(5);
+  const auto image = [&](const std::vector<cv::Point2d>& ends) {
+    cv::Mat3b drawn(240, 320);
+    random.fill(drawn, cv::RNG::UNIFORM, 90, 170);
+    cv::GaussianBlur(drawn, drawn, {}, 2.0);
+    cv::line(drawn, cv::Point(ends[0] * 16.0), cv::Point(ends[1] * 16.0), {40, 60, 210}, 8,
+             cv::LINE_AA, 4);
+    return drawn;
+  };
+  ChainModel model;
+  SegmentModel& segment = model.segments[0];
+  segment.layout = Layout::kDeformable;
+  segment.parts = 32;
+  segment.aspect = 0.04;
+  segment.window = 1.0;
+  segment.orientation_hypotheses = segment.scale_hypotheses = 1;
+  const auto ends = [](double angle) {
+    const cv::Point2d half = 90.0 * cv::Point2d(std::cos(angle), std::sin(angle));
+    return std::vector<cv::Point2d>{cv::Point2d(160.0, 120.0) - half,
+                                    cv::Point2d(160.0, 120.0) + half};
+  };
+  ChainTracker tracker(model, image(ends(0.0)), ends(0.0));
+  double angle = 0.0;
+  for (int frame = 0; frame < 120; ++frame) tracker.update(image(ends(angle += 0.02)));
+  const std::vector<CarriedPoint>& found = tracker.state().points;
+  EXPECT_NEAR(180.0, cv::norm(found[1].position - found[0].position), 9.0);
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_LT(cv::norm(found[i].position - ends(angle)[i]), 9.0) << i;
   }
 }
 

@@ -39,9 +39,9 @@ std::vector<PartState> partsAt(const SegmentLayout& segment, const Similarity& p
 }
 
 Similarity fitted(const SegmentLayout& segment, const PoseGrid& poses,
-                  const std::vector<PartState>& parts) {
+                  const std::vector<PartState>& parts, double length_share = 1.0) {
   SegmentFitWorkspace workspace;
-  return fitSegment(segment, poses, parts, workspace);
+  return fitSegment(segment, poses, parts, length_share, workspace);
 }
 
 void expectNear(const Similarity& expected, const Similarity& actual, double tolerance = 1e-6) {
@@ -140,6 +140,14 @@ TEST(FitSegment, whatCoilsUpKeepsItsScale) {
         parts[k - 1].position + step * cv::Point2d(std::cos(direction), std::sin(direction));
   }
   EXPECT_NEAR(1.0, fitted(segment, kPoses, parts).scale, 1e-6);
+}
+
+TEST(FitSegment, followsTheShareOfALengthThatIsTold) {
+  const SegmentLayout segment = deformableSegment();
+  const std::vector<PartState> parts = partsAt(segment, {0.0, 0.99, {}});
+  EXPECT_NEAR(0.99, fitted(segment, kPoses, parts, 1.0).scale, 1e-9);
+  EXPECT_NEAR(std::sqrt(0.99), fitted(segment, kPoses, parts, 0.5).scale, 1e-9);
+  EXPECT_EQ(1.0, fitted(segment, kPoses, parts, 0.0).scale);
 }
 
 /// As two parts of a line that doubles back to where it began.
