@@ -99,9 +99,10 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
   }
   for (const SegmentState& segment : initial.segments) {
     std::vector<RootHistogram> colors;
-    for (int k = 0; k < segment.part_count; ++k) {
-      const auto part = static_cast<size_t>(segment.first_part + k);
-      colors.push_back(appearance_.learned().part(part, 0.0).colors);
+    const auto first = static_cast<size_t>(segment.first_part);
+    const auto parts = static_cast<size_t>(segment.part_count);
+    for (size_t k = first; k < first + parts; ++k) {
+      colors.push_back(appearance_.learned().part(k, 0.0).colors);
     }
     length_shares_.push_back(lengthEvidence(colors));
   }

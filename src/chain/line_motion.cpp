@@ -13,14 +13,12 @@ constexpr int kEndSteps = 3;
 
 /// Every part to where the one `places` behind it is.
 void slideOnwards(int places, std::vector<PartState>& parts) {
-  const int count = static_cast<int>(parts.size());
-  const int steps = std::min(kEndSteps, count - 1);
+  const int steps = std::min(kEndSteps, static_cast<int>(parts.size()) - 1);
   const PartState last = parts.back();
-  const cv::Point2d step =
-      (last.position - parts[static_cast<size_t>(count - 1 - steps)].position) / steps;
+  const cv::Point2d step = (last.position - (parts.end() - 1 - steps)->position) / steps;
   std::rotate(parts.begin(), parts.begin() + places, parts.end());
   for (int beyond = 1; beyond <= places; ++beyond) {
-    PartState& part = parts[static_cast<size_t>(count - 1 - places + beyond)];
+    PartState& part = *(parts.end() - 1 - places + beyond);
     part = last;
     part.position += beyond * step;
     part.visible = true;
