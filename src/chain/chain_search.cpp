@@ -97,15 +97,21 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
     variance_shares_.insert(variance_shares_.end(), segment.parts.size(),
                             isGrid(segment.layout) ? kCellVariance : 1.0);
   }
-  for (const SegmentState& segment : initial.segments) {
-    std::vector<RootHistogram> colors;
-    const auto first = static_cast<size_t>(segment.first_part);
-    const auto parts = static_cast<size_t>(segment.part_count);
-    for (size_t k = first; k < first + parts; ++k) {
-      colors.push_back(appearance_.learned().part(k, 0.0).colors);
-    }
-    length_shares_.push_back(lengthEvidence(colors));
+  for (size_t m = 0; m < segments(); ++m) {
+    length_rates_.push_back(lengthRateOf(layout_[m], initial.segments[m]));
   }
+}
+
+/// The joints of a link tell its length, whatever it looks like.
+double ChainSearch::lengthRateOf(const SegmentLayout& segment, const SegmentState& initial) {
+  if (segment.entry || segment.exit) return 1.0;
+  const auto first = static_cast<size_t>(initial.first_part);
+  std::vector<RootHistogram> colors;
+  for (size_t k = first; k < first + segment.parts.size(); ++k) {
+    const PartAppearance& learned = appearance_.learned().part(k, 0.0);
+    if (learned.known >= 1.0F) colors.push_back(learned.colors);
+  }
+  return lengthEvidence(colors);
 }
 
 void ChainSearch::observe(const FoundChain& found) {
@@ -354,7 +360,7 @@ void ChainSearch::fillIn(const std::vector<RefinedPart>& parts, ChainState& foun
   for (size_t m = 0; m < segments(); ++m) {
     SegmentState& segment = found.segments[m];
     segment.image_from_segment = fitSegment(layout_[m], finePoses(model_.segments[m], poses_[m]),
-                                            {found, segment}, length_shares_[m], fit_workspace_);
+                                            {found, segment}, length_rates_[m], fit_workspace_);
     segment.confidence = expectations_.meanConfidence(
         found.parts, static_cast<size_t>(segment.first_part), layout_[m].parts.size());
   }

@@ -84,6 +84,7 @@ class ChainSearch {
   };
 
   size_t segments() const { return layout_.size(); }
+  double lengthRateOf(const SegmentLayout& segment, const SegmentState& initial);
   double sideOf(size_t m, double scale) const;
   double smallestSide(const std::vector<SegmentPose>& poses) const;
 
@@ -113,7 +114,7 @@ class ChainSearch {
   PartOverlaps overlaps_;
   SpringRelaxation springs_;
   PlacementSearch placement_search_;
-  std::vector<double> length_shares_;    // of the segments, for fitSegment()
+  std::vector<double> length_rates_;     // of the segments, for fitSegment()
   std::vector<double> variance_shares_;  // of the parts, in what the chain alone would leave
   // Of the search that goes on.
   ChainState sought_;

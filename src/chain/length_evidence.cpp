@@ -8,8 +8,6 @@
 namespace chain_tracker {
 namespace {
 
-/// Of the parts, from one to the one it is held against: neighbours show some of the same pixels.
-constexpr size_t kPartsPerPair = 6;
 /// Mean distance up to which a line is of one colour, as noise and shades make it, and from which
 /// on its parts tell its length. Rendered lines of one colour are at 0.06 to 0.08, lines with marks
 /// and the bodies of fish at 0.34 to 0.76.
@@ -22,16 +20,24 @@ double distance(const RootHistogram& a, const RootHistogram& b) {
   return std::sqrt(std::max(0.0, 1.0 - alike));
 }
 
-}  // namespace
-
-double lengthEvidence(const std::vector<RootHistogram>& colors) {
-  if (colors.size() < 2) return 1.0;
-  const size_t apart = std::max<size_t>(1, colors.size() / kPartsPerPair);
+/// Of parts so far apart, along all of the line; 0 if it is no longer than that.
+double meanDistance(const std::vector<RootHistogram>& colors, size_t apart) {
+  if (colors.size() <= apart) return 0.0;
   const size_t pairs = colors.size() - apart;
   double sum = 0.0;
   for (size_t k = 0; k < pairs; ++k) sum += distance(colors[k], colors[k + apart]);
-  const double mean = sum / static_cast<double>(pairs);
-  return std::clamp((mean - kUniform) / (kMarked - kUniform), 0.0, 1.0);
+  return sum / static_cast<double>(pairs);
+}
+
+}  // namespace
+
+double lengthEvidence(const std::vector<RootHistogram>& colors) {
+  // Neighbours show some of the same pixels, and marks may come back at any one distance.
+  const size_t sixth = std::max<size_t>(1, colors.size() / 6);
+  const size_t quarter = std::max<size_t>(1, colors.size() / 4);
+  const double farthest = std::max({meanDistance(colors, sixth), meanDistance(colors, sixth + 1),
+                                    meanDistance(colors, quarter)});
+  return std::clamp((farthest - kUniform) / (kMarked - kUniform), 0.0, 1.0);
 }
 
 }  // namespace chain_tracker

@@ -11,8 +11,9 @@
 namespace chain_tracker {
 
 /// How far the parts of a line, whose learned colours these are from end to end, can be told from
-/// those a sixth of it away: the share of a change of its length that is believed, in [0, 1]; 0 for
-/// one colour with noise, 1 for marks and for a single part. O(parts).
+/// those a sixth to a quarter of it away: the share of a change of its length that is believed in
+/// every frame, in [0, 1]; 0 for one colour with noise and for a single part, 1 for marks.
+/// O(parts).
 double lengthEvidence(const std::vector<RootHistogram>& colors);
 
 }  // namespace chain_tracker

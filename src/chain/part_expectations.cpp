@@ -88,6 +88,12 @@ double PartExpectations::meanConfidence(const std::vector<PartState>& parts, siz
   return sum / weights;
 }
 
+bool PartExpectations::areKnown(size_t first, size_t count) const {
+  const auto begin = is_known_.begin() + static_cast<std::ptrdiff_t>(first);
+  return std::find(begin, begin + static_cast<std::ptrdiff_t>(count), true) !=
+         begin + static_cast<std::ptrdiff_t>(count);
+}
+
 double PartExpectations::usualConfidence() const {
   const double weights = std::accumulate(evidence_.begin(), evidence_.end(), 0.0);
   return std::inner_product(evidence_.begin(), evidence_.end(), usual_.begin(), 0.0) / weights;

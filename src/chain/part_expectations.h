@@ -35,6 +35,9 @@ class PartExpectations {
   /// Mean confidence of `count` parts, weighted by what they can tell.
   double meanConfidence(const std::vector<PartState>& parts, size_t first, size_t count) const;
 
+  /// Whether the first frame showed any of `count` parts.
+  bool areKnown(size_t first, size_t count) const;
+
   /// Share of what the parts can tell that is told by hidden ones, in [0, 1].
   double hiddenShare(const std::vector<PartState>& parts) const;
 

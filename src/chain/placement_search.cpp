@@ -19,7 +19,7 @@ constexpr double kMostCells = 160.0;
 constexpr double kCellsPerTurn = 3.0;
 constexpr double kFewestTurns = 16.0;
 constexpr double kMostTurns = 128.0;
-/// Where the others stay: those that hang are tried at few cells, so it takes no time.
+/// Of segments that hang where the others stay: each turn asks few cells.
 constexpr int kFineTurns = 128;
 /// Of a joint by a half turn, of what the segment behind it costs if all hidden: links that look
 /// alike must not fold onto one another.
@@ -147,6 +147,8 @@ class ChainPlacement {
   const std::vector<Similarity>& motions() const { return motions_; }
 
  private:
+  double angleOf(int turn) const { return wrapAngle(2.0 * CV_PI * turn / turns_); }
+
   void placeFreely(size_t m) {
     const cv::Point2d middle = middleOf(segments_[m]);
     std::vector<cv::Point2d> offsets;
@@ -154,8 +156,7 @@ class ChainPlacement {
       offsets.push_back((voter.position - middle) / cells_.step);
     }
     const Placement best = cheapestPlacement(costs_[m], offsets, cells_.middles, turns_);
-    motions_[m] =
-        rigidMotion(2.0 * CV_PI * best.turn / turns_, middle, cells_.centerOf(best.middle));
+    motions_[m] = rigidMotion(angleOf(best.turn), middle, cells_.centerOf(best.middle));
   }
 
   /// A voter off the map is hidden.
@@ -176,7 +177,7 @@ class ChainPlacement {
     const cv::Point2d joint = motions_[from].apply(hinge.position);
     double least = kInfinity;
     for (int turn = 0; turn < turns_; ++turn) {
-      const double bend = wrapAngle(2.0 * CV_PI * turn / turns_);
+      const double bend = angleOf(turn);
       const Similarity motion =
           rigidMotion(wrapAngle(motions_[from].angle + bend), hinge.position, joint);
       const double cost = costOf(m, motion) + kBendCost * hidden * std::abs(bend) / CV_PI +
@@ -253,8 +254,11 @@ std::vector<Similarity> PlacementSearch::find(const std::vector<RigidSegment>& s
 std::vector<Similarity> PlacementSearch::hang(const std::vector<RigidSegment>& segments,
                                               const std::vector<Hinge>& hinges,
                                               const std::vector<bool>& seen, FramePixels& pixels) {
-  const auto unseen = static_cast<double>(std::count(seen.begin(), seen.end(), false));
-  const Cells cells = cellsAround(segments, 2.0 * unseen * reachOf(segments), image_);
+  double swing = 0.0;
+  for (size_t m = 0; m < segments.size(); ++m) {
+    if (!seen[m]) swing += 2.0 * reachOf({segments[m]}) + segments[m].side;
+  }
+  const Cells cells = cellsAround(segments, swing, image_);
   std::vector<std::vector<cv::Mat1f>> costs(segments.size());
   for (size_t m = 0; m < segments.size(); ++m) {
     if (!seen[m]) costs[m] = costsOf(segments[m], cells, model_, pixels, workspace_);

@@ -23,7 +23,8 @@ constexpr int kFramesPerLook = 2;
 /// How much more likeness it takes to believe that it is there, or that a line is.
 constexpr double kClearlyBetter = 0.1;
 constexpr double kBetterLine = 0.05;
-/// The same of segments that hang otherwise, of what they can look at most.
+/// The same where all segments hang otherwise; where some do, their share of it, up to
+/// kClearlyBetter.
 constexpr double kBetterSegment = 0.3;
 /// Of an object in doubt, to each side, at least [rad].
 constexpr double kLeastTurn = 0.4;
@@ -41,10 +42,21 @@ constexpr double kLeastGain = 0.01;
 /// something may cover a share of it.
 constexpr int kSlides = 3;
 constexpr int kFewestPlaces = 2;
+/// Of a line, from end to end, of its length in the first frame: an open one.
+constexpr double kOpen = 0.25;
 /// Share of the line that must stay where the line was seen.
 constexpr double kLeastOverlap = 0.25;
 /// Of the object's usual confidence: that of a segment which is where it was found.
 constexpr double kSeen = 0.5;
+
+/// The two ways round a contour that nearly closes are mirror images of one another, which no
+/// motion exchanges.
+bool isOpen(const SegmentLayout& line) {
+  double length = 0.0;
+  for (const EdgeLayout& edge : line.edges) length += edge.length;
+  const cv::Point2d ends = line.parts.back().position - line.parts.front().position;
+  return cv::norm(ends) > kOpen * length;
+}
 
 }  // namespace
 
@@ -54,6 +66,7 @@ SecondLook::SecondLook(const ChainModel& model, const ChainLayout& layout,
     : model_(model),
       is_line_(layout.segments.size() == 1 &&
                layout.segments.front().layout == Layout::kDeformable),
+      is_open_line_(is_line_ && isOpen(layout.segments.front())),
       image_size_(image_size),
       search_(search),
       shape_(shape),
@@ -76,7 +89,7 @@ void SecondLook::lookElsewhere(const ChainState& before, FoundChain& found) {
     for (const int side : {-1, 1}) preferBetter(turned(side, before), found);
   } else if (frames_doubted_ % kFramesPerLook == 0) {
     preferBetter(look(frames_doubted_ / kFramesPerLook, kWidestInDoubt), found);
-  } else if (is_line_) {
+  } else if (is_open_line_) {
     tryAlongLine(found);
   } else {
     tryOtherBends(found);
@@ -152,7 +165,7 @@ FoundChain SecondLook::turned(int side, const ChainState& before) {
 /// What is found of an object whose two ends look alike may be the wrong way round.
 FoundChain SecondLook::reversed(const FoundChain& found) {
   ChainState sought = found.state;
-  if (is_line_) {
+  if (is_open_line_) {
     reverse(sought);
     shape_.carry(sought);
   } else {
@@ -177,8 +190,8 @@ FoundChain SecondLook::refitted(FoundChain found) {
 /// It may lie shifted along itself, one end beyond that of the object, or the wrong way round.
 void SecondLook::tryAlongLine(FoundChain& found) {
   const int hidden = hiddenEnd(found.state);
-  const int share = 1 << (frames_doubted_ / kFramesPerLook - 1) % kSlides;
-  const int places = std::max(kFewestPlaces, std::abs(hidden) / share);
+  const int halvings = (frames_doubted_ / kFramesPerLook - 1) % kSlides;
+  const int places = std::max(kFewestPlaces, std::abs(hidden) >> halvings);
   const auto most = (1.0 - kLeastOverlap) * static_cast<double>(found.state.parts.size());
   if (std::abs(hidden) >= kFewestPlaces && places <= most) {
     ChainState sought = found.state;
@@ -190,19 +203,27 @@ void SecondLook::tryAlongLine(FoundChain& found) {
 }
 
 /// Segments that turned while they were hidden hang at angles that no hypothesis reaches; a few of
-/// many leave the object itself beyond doubt.
+/// many leave the object itself beyond doubt. Those between two that are seen are held by both, and
+/// nothing tells where those are that the first frame did not show.
 void SecondLook::tryOtherBends(FoundChain& found) {
-  const double least = kSeen * search_.expectations().usualConfidence();
-  is_seen_.clear();
+  const PartExpectations& expectations = search_.expectations();
+  const double least = kSeen * expectations.usualConfidence();
+  is_held_.clear();
   for (const SegmentState& segment : found.state.segments) {
-    is_seen_.push_back(segment.confidence >= least);
+    const bool is_known = expectations.areKnown(static_cast<size_t>(segment.first_part),
+                                                static_cast<size_t>(segment.part_count));
+    is_held_.push_back(!is_known || segment.confidence >= least);
   }
-  const auto hidden = std::count(is_seen_.begin(), is_seen_.end(), false);
-  const double share = static_cast<double>(hidden) / static_cast<double>(is_seen_.size());
-  if (share == 0.0 || share == 1.0) return;
+  const auto first = std::find(is_held_.begin(), is_held_.end(), true);
+  if (first == is_held_.end()) return;
+  const auto last = std::find(is_held_.rbegin(), is_held_.rend(), true).base();
+  std::fill(first, last, true);
+  const auto loose = std::count(is_held_.begin(), is_held_.end(), false);
+  if (loose == 0) return;
   FoundChain hung;
-  search_.findHung(found.state, is_seen_, {searchRadius(), 0.0}, hung);
+  search_.findHung(found.state, is_held_, {searchRadius(), 0.0}, hung);
   times_ += hung.state.times;
+  const double share = static_cast<double>(loose) / static_cast<double>(is_held_.size());
   preferBetter(std::move(hung), std::min(kClearlyBetter, kBetterSegment * share), found);
 }
 

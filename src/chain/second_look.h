@@ -27,8 +27,9 @@ class SecondLook {
   double searchRadius() const { return reach(0, 0.0); }
 
   /// To be called with what was found around the place of `before`, the state of the last frame.
-  /// If there is reason to doubt it, `found` becomes a chain elsewhere that is clearly more like
-  /// the object, if there is one. Each frame in doubt tries something else.
+  /// If there is reason to doubt it, or some segments are hidden, `found` becomes another chain
+  /// that is clearly more like the object, if there is one. Each frame in doubt tries something
+  /// else.
   void reconsider(const ChainState& before, FoundChain& found);
 
   /// Looks for an object that is lost since `frames_lost` frames: what is most like it.
@@ -41,6 +42,7 @@ class SecondLook {
   const StepTimes& times() const { return times_; }
 
  private:
+  /// A line that was in doubt stays so for longer.
   bool isDoubtful(const FoundChain& found) const;
   void preferBetter(FoundChain other, FoundChain& found) const;
   void preferBetter(FoundChain other, double gain, FoundChain& found) const;
@@ -57,13 +59,14 @@ class SecondLook {
 
   ChainModel model_;
   bool is_line_;  ///< it bends anywhere, and often looks the same all along
+  bool is_open_line_;
   cv::Size image_size_;
   ChainSearch& search_;
   ObjectShape& shape_;
   ChainState trusted_;  ///< when the object was last seen for sure
-  int frame_ = 0;       ///< of kFramesPerLook
+  int frame_ = 0;       ///< of the kFramesPerLook from one look to the next
   int frames_doubted_ = 0;
-  std::vector<bool> is_seen_;  ///< of the segments
+  std::vector<bool> is_held_;  ///< of the segments: where they were found
   StepTimes times_;
 };
 

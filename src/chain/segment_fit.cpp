@@ -63,7 +63,7 @@ double clampedScale(double from, double to, double limit) {
 }  // namespace
 
 Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses, const SegmentParts& parts,
-                      double length_share, SegmentFitWorkspace& workspace) {
+                      double length_rate, SegmentFitWorkspace& workspace) {
   const SegmentPose& searched = poses.middle;
   auto& [reference, found, confidences, weights] = workspace;
   reference.clear();
@@ -84,7 +84,7 @@ Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses, const 
   Similarity fit = fitSimilarity(reference, found, weights);
   if (is_deformable) {
     const double change = lengthRatio(reference, found, weights) / searched.scale;
-    fit.scale = searched.scale * std::pow(change, length_share);
+    fit.scale = searched.scale * std::pow(change, length_rate);
   } else if (poses.scales == 1) {
     fit.scale = remembered(fit.scale, scaleInformation(parts, fit.translation));
   }

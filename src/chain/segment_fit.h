@@ -23,9 +23,9 @@ struct SegmentFitWorkspace {
 /// knows better than the parts, which lean inwards wherever the object is uniform.
 /// A rigid segment of which a single scale is searched, so that no energy tells it, returns to that
 /// of the first frame, 1, as far as the covariances of its parts leave the scale open. One that
-/// bends anywhere follows `length_share` of the change of its length, on a log scale; that of
-/// lengthEvidence(). O(parts).
+/// bends anywhere takes a share of `length_rate` of the change of its length in every call, on a
+/// log scale; that of lengthEvidence(). O(parts).
 Similarity fitSegment(const SegmentLayout& layout, const PoseGrid& poses, const SegmentParts& parts,
-                      double length_share, SegmentFitWorkspace& workspace);
+                      double length_rate, SegmentFitWorkspace& workspace);
 
 }  // namespace chain_tracker

@@ -25,15 +25,19 @@ TEST(LengthEvidence, isNoneOfOneColour) {
   EXPECT_EQ(0.0, lengthEvidence(stripes(0.7, 0.73, 4)));  // as noise makes it
 }
 
-TEST(LengthEvidence, isAllOfMarks) { EXPECT_EQ(1.0, lengthEvidence(stripes(1.0, 0.0, 4))); }
+TEST(LengthEvidence, isAllOfMarksHoweverFarApart) {
+  for (size_t period = 1; period <= 8; ++period) {
+    EXPECT_EQ(1.0, lengthEvidence(stripes(1.0, 0.0, period))) << period;
+  }
+}
 
-TEST(LengthEvidence, growsWithTheDistanceOfPartsASixthApart) {
+TEST(LengthEvidence, growsWithTheDistanceOfTheColours) {
   const double alike = std::sqrt(0.3 * 0.6) + std::sqrt(0.7 * 0.4);
   EXPECT_NEAR((std::sqrt(1.0 - alike) - 0.1) / 0.2, lengthEvidence(stripes(0.3, 0.6, 4)), 1e-6);
   EXPECT_LT(lengthEvidence(stripes(0.3, 0.55, 4)), lengthEvidence(stripes(0.3, 0.6, 4)));
 }
 
-TEST(LengthEvidence, isAllOfASinglePart) { EXPECT_EQ(1.0, lengthEvidence({colorsOf(0.5)})); }
+TEST(LengthEvidence, isNoneOfASinglePart) { EXPECT_EQ(0.0, lengthEvidence({colorsOf(0.5)})); }
 
 }  // namespace
 }  // namespace chain_tracker

@@ -39,9 +39,9 @@ std::vector<PartState> partsAt(const SegmentLayout& segment, const Similarity& p
 }
 
 Similarity fitted(const SegmentLayout& segment, const PoseGrid& poses,
-                  const std::vector<PartState>& parts, double length_share = 1.0) {
+                  const std::vector<PartState>& parts, double length_rate = 1.0) {
   SegmentFitWorkspace workspace;
-  return fitSegment(segment, poses, parts, length_share, workspace);
+  return fitSegment(segment, poses, parts, length_rate, workspace);
 }
 
 void expectNear(const Similarity& expected, const Similarity& actual, double tolerance = 1e-6) {

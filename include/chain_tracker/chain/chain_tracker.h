@@ -38,11 +38,12 @@ class ChainTracker {
   /// the tracker is then as before.
   /// Time: linear in the number of parts; linear in the area of a part's search window. A frame in
   /// which the object begins to be in doubt takes three searches, every other one after it three
-  /// or, for a single deformable segment, up to eight, the widest of them over 129 x 129 candidates
-  /// a part.
+  /// or, for a single deformable segment, every one up to eight, the widest of them over 129 x 129
+  /// candidates a part. While segments at an end of a chain are hidden, every other frame takes
+  /// two.
   ///
   /// Memory: after the first frames, none is allocated but for what is new: parts turned as never
-  /// before, windows of another size, searches of an object in doubt.
+  /// before, windows of another size, searches of an object that is in doubt or partly hidden.
   const ChainState& update(const cv::Mat& image);
 
   const ChainState& state() const;
