@@ -9,7 +9,6 @@
 #include "length_evidence.h"
 #include "robust_costs.h"
 #include "state_motion.h"
-#include "stopwatch.h"
 
 namespace chain_tracker {
 namespace {
@@ -150,22 +149,18 @@ void ChainSearch::findAnywhere(const ChainState& sought, double reach, const Sea
                                FoundChain& found) {
   Stopwatch watch;
   const Linkage links = linkageOf(sought);
-  const std::vector<Similarity> motions =
-      placement_search_.find(links.segments, links.hinges, reach, appearance_.pixels());
-  const double placing = watch.lap();
-  findMoved(sought, motions, range, found);
-  found.state.times.part_costs += placing;
+  findMoved(sought,
+            placement_search_.find(links.segments, links.hinges, reach, appearance_.pixels()),
+            range, watch, found);
 }
 
 void ChainSearch::findHung(const ChainState& sought, const std::vector<bool>& seen,
                            const SearchRange& range, FoundChain& found) {
   Stopwatch watch;
   const Linkage links = linkageOf(sought);
-  const std::vector<Similarity> motions =
-      placement_search_.hang(links.segments, links.hinges, seen, appearance_.pixels());
-  const double placing = watch.lap();
-  findMoved(sought, motions, range, found);
-  found.state.times.part_costs += placing;
+  findMoved(sought,
+            placement_search_.hang(links.segments, links.hinges, seen, appearance_.pixels()), range,
+            watch, found);
 }
 
 ChainSearch::Linkage ChainSearch::linkageOf(const ChainState& state) {
@@ -180,11 +175,14 @@ ChainSearch::Linkage ChainSearch::linkageOf(const ChainState& state) {
   return links;
 }
 
+/// `watch`: since the motions were begun to be looked for.
 void ChainSearch::findMoved(const ChainState& sought, const std::vector<Similarity>& motions,
-                            const SearchRange& range, FoundChain& found) {
+                            const SearchRange& range, Stopwatch& watch, FoundChain& found) {
   ChainState moved = sought;
   for (size_t m = 0; m < segments(); ++m) moveSegment(motions[m], m, moved);
+  const double placing = watch.lap();
   find(moved, range, found);
+  found.state.times.part_costs += placing;
 }
 
 /// Every so many parts, from end to end.

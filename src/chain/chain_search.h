@@ -22,6 +22,7 @@
 #include "placement_search.h"
 #include "segment_fit.h"
 #include "spring_relaxation.h"
+#include "stopwatch.h"
 
 namespace chain_tracker {
 
@@ -97,7 +98,7 @@ class ChainSearch {
   void robustify(Candidates& candidates) const;
   Linkage linkageOf(const ChainState& state);
   void findMoved(const ChainState& sought, const std::vector<Similarity>& motions,
-                 const SearchRange& range, FoundChain& found);
+                 const SearchRange& range, Stopwatch& watch, FoundChain& found);
   std::vector<Voter> votersOf(const ChainState& state, size_t m);
   const ChainMatch& matched(const std::vector<PoseGrid>& poses,
                             const std::vector<SegmentCandidates>& candidates,
