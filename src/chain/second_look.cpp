@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <utility>
 #include <vector>
@@ -203,28 +204,33 @@ void SecondLook::tryAlongLine(FoundChain& found) {
 }
 
 /// Segments that turned while they were hidden hang at angles that no hypothesis reaches; a few of
-/// many leave the object itself beyond doubt. Those between two that are seen are held by both, and
-/// nothing tells where those are that the first frame did not show.
+/// many leave the object itself beyond doubt.
 void SecondLook::tryOtherBends(FoundChain& found) {
+  takeHeldSegments(found.state);
+  const auto loose = std::count(is_held_.begin(), is_held_.end(), false);
+  const auto all = static_cast<std::ptrdiff_t>(is_held_.size());
+  if (loose == 0 || loose == all) return;
+  FoundChain hung;
+  search_.findHung(found.state, is_held_, {searchRadius(), 0.0}, hung);
+  times_ += hung.state.times;
+  const double share = static_cast<double>(loose) / static_cast<double>(all);
+  preferBetter(std::move(hung), std::min(kClearlyBetter, kBetterSegment * share), found);
+}
+
+/// Those that are seen, and those between them, which are held by both; nothing tells where else
+/// those may be that the first frame did not show.
+void SecondLook::takeHeldSegments(const ChainState& found) {
   const PartExpectations& expectations = search_.expectations();
   const double least = kSeen * expectations.usualConfidence();
   is_held_.clear();
-  for (const SegmentState& segment : found.state.segments) {
+  for (const SegmentState& segment : found.segments) {
     const bool is_known = expectations.areKnown(static_cast<size_t>(segment.first_part),
                                                 static_cast<size_t>(segment.part_count));
     is_held_.push_back(!is_known || segment.confidence >= least);
   }
   const auto first = std::find(is_held_.begin(), is_held_.end(), true);
   if (first == is_held_.end()) return;
-  const auto last = std::find(is_held_.rbegin(), is_held_.rend(), true).base();
-  std::fill(first, last, true);
-  const auto loose = std::count(is_held_.begin(), is_held_.end(), false);
-  if (loose == 0) return;
-  FoundChain hung;
-  search_.findHung(found.state, is_held_, {searchRadius(), 0.0}, hung);
-  times_ += hung.state.times;
-  const double share = static_cast<double>(loose) / static_cast<double>(is_held_.size());
-  preferBetter(std::move(hung), std::min(kClearlyBetter, kBetterSegment * share), found);
+  std::fill(first, std::find(is_held_.rbegin(), is_held_.rend(), true).base(), true);
 }
 
 }  // namespace chain_tracker

@@ -56,6 +56,7 @@ class SecondLook {
   FoundChain refitted(FoundChain found);
   void tryAlongLine(FoundChain& found);
   void tryOtherBends(FoundChain& found);
+  void takeHeldSegments(const ChainState& found);
 
   ChainModel model_;
   bool is_line_;  ///< it bends anywhere, and often looks the same all along
