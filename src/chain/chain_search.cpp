@@ -43,6 +43,8 @@ constexpr size_t kFewestVoters = 4;
 /// Of the usual likeness: from which on a chain tells how the light has changed. It is lower than
 /// what is trusted otherwise, as in another light all looks less as learned.
 constexpr double kTellsLight = 0.6;
+/// Of lengthEvidence(): from which on the two ends of a line can be told from one another.
+constexpr double kTellsPlace = 0.5;
 
 void takePoses(const ChainState& state, std::vector<SegmentPose>& poses) {
   poses.clear();
@@ -111,6 +113,11 @@ double ChainSearch::lengthRateOf(const SegmentLayout& segment, const SegmentStat
     if (learned.known >= 1.0F) colors.push_back(learned.colors);
   }
   return lengthEvidence(colors);
+}
+
+bool ChainSearch::isUniformLine() const {
+  return segments() == 1 && layout_.front().layout == Layout::kDeformable &&
+         length_rates_.front() < kTellsPlace;
 }
 
 void ChainSearch::observe(const FoundChain& found) {

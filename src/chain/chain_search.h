@@ -47,6 +47,8 @@ class ChainSearch {
   ChainSearch& operator=(const ChainSearch&) = delete;
 
   const PartExpectations& expectations() const { return expectations_; }
+  /// Whether it is a single line whose parts tell little of where on it they are.
+  bool isUniformLine() const;
   /// To be called with every chain that was taken for the object.
   void observe(const FoundChain& found);
 

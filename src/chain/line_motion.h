@@ -4,6 +4,8 @@
 /// pose, outline and points stay; ObjectShape::carry() fills in the rest.
 #pragma once
 
+#include <vector>
+
 #include "chain_tracker/chain/chain_state.h"
 
 namespace chain_tracker {
@@ -16,6 +18,22 @@ int hiddenEnd(const ChainState& line);
 /// those beyond the end go straight on, in steps of the last ones there, and count as visible.
 /// `places`: of a smaller magnitude than there are parts, of which there are at least 2.
 void slide(int places, ChainState& line);
+
+/// `stretch` becomes the smoothed positions from the first visible part to the last one, as parts
+/// that zigzag across a thick line do not make it longer; none if no part is visible.
+void takeSeenStretch(const ChainState& line, std::vector<cv::Point2d>& stretch);
+
+/// Of a polyline [px].
+double lengthOf(const std::vector<cv::Point2d>& polyline);
+
+/// Lays all parts along `way`, a polyline of at least two points, from its beginning on, at
+/// `lengths` [px] from one another, one less than there are parts, and straight on beyond its end:
+/// the first part and its `lengths` first, or the last ones if `backwards`. All count as visible.
+void layAlong(const std::vector<cv::Point2d>& way, const std::vector<double>& lengths,
+              bool backwards, ChainState& line);
+
+/// Whether its parts are nearer to those of `before` the other way round.
+bool liesReversed(const ChainState& line, const ChainState& before);
 
 /// The last part goes to where the first one is, and so on.
 void reverse(ChainState& line);

@@ -43,6 +43,11 @@ constexpr double kLeastGain = 0.01;
 /// something may cover a share of it.
 constexpr int kSlides = 3;
 constexpr int kFewestPlaces = 2;
+/// Around a line whose ends were moved: of the usual reach, of what it may bend between two frames,
+/// and how much more has to speak for it.
+constexpr double kEndReach = 0.15;
+constexpr double kLooseEnds = 2.0;
+constexpr double kBetterEnds = 0.004;
 /// Of a line, from end to end, of its length in the first frame: an open one.
 constexpr double kOpen = 0.25;
 /// Share of the line that must stay where the line was seen.
@@ -68,10 +73,12 @@ SecondLook::SecondLook(const ChainModel& model, const ChainLayout& layout,
       is_line_(layout.segments.size() == 1 &&
                layout.segments.front().layout == Layout::kDeformable),
       is_open_line_(is_line_ && isOpen(layout.segments.front())),
+      is_uniform_line_(is_open_line_ && search.isUniformLine()),
       image_size_(image_size),
       search_(search),
       shape_(shape),
-      trusted_(initial) {}
+      trusted_(initial),
+      ends_(layout.segments.front()) {}
 
 void SecondLook::reconsider(const ChainState& before, FoundChain& found) {
   times_ = StepTimes();
@@ -79,6 +86,8 @@ void SecondLook::reconsider(const ChainState& before, FoundChain& found) {
   if (isDoubtful(found)) {
     ++frames_doubted_;
     lookElsewhere(before, found);
+  } else if (is_open_line_) {
+    tryEnds(found);
   } else if (frame_ == 0) {
     tryOtherBends(found);
   }
@@ -150,7 +159,11 @@ FoundChain SecondLook::look(int failures, double widest) {
     found = find(trusted_, {farthest, 0.0});
   }
   if (is_line_) found = refitted(std::move(found));
-  if (found.state.confidence >= model_.search.found_above) preferBetter(reversed(found), found);
+  if (is_uniform_line_) {
+    if (liesReversed(found.state, trusted_)) reverse(found.state);
+  } else if (found.state.confidence >= model_.search.found_above) {
+    preferBetter(reversed(found), found);
+  }
   return found;
 }
 
@@ -188,6 +201,25 @@ FoundChain SecondLook::refitted(FoundChain found) {
   return find(found.state, {searchRadius(), 0.0});
 }
 
+/// Nothing but its ends may tell how long a line is, and how far it lies along itself.
+void SecondLook::tryEnds(FoundChain& found) {
+  sought_ = found.state;
+  if (ends_.stretch(sought_)) preferLonger(found);
+  sought_ = found.state;
+  if (ends_.rescale(sought_)) preferLonger(found);
+}
+
+/// What is found around `sought_`.
+void SecondLook::preferLonger(FoundChain& found) {
+  shape_.carry(sought_);
+  search_.find(sought_, {kEndReach * searchRadius(), 0.0, kLooseEnds}, other_);
+  times_ += other_.state.times;
+  const bool is_sure = other_.state.confidence >= model_.search.found_above;
+  const double gain =
+      ends_.score(other_.state, other_.likeness) - ends_.score(found.state, found.likeness);
+  if (is_sure && gain > kBetterEnds) std::swap(found, other_);
+}
+
 /// It may lie shifted along itself, one end beyond that of the object, or the wrong way round.
 void SecondLook::tryAlongLine(FoundChain& found) {
   const int hidden = hiddenEnd(found.state);
@@ -200,7 +232,7 @@ void SecondLook::tryAlongLine(FoundChain& found) {
     shape_.carry(sought);
     preferBetter(refitted(find(sought, {searchRadius(), 0.0, kLoose})), found);
   }
-  preferBetter(reversed(found), found);
+  if (!is_uniform_line_) preferBetter(reversed(found), found);
 }
 
 /// Segments that turned while they were hidden hang at angles that no hypothesis reaches; a few of

@@ -12,6 +12,7 @@
 #include "chain_tracker/chain/chain_model.h"
 #include "chain_tracker/chain/chain_state.h"
 #include "chain_tracker/chain/object_shape.h"
+#include "line_ends.h"
 
 namespace chain_tracker {
 
@@ -54,6 +55,8 @@ class SecondLook {
   FoundChain turned(int side, const ChainState& before);
   FoundChain reversed(const FoundChain& found);
   FoundChain refitted(FoundChain found);
+  void tryEnds(FoundChain& found);
+  void preferLonger(FoundChain& found);
   void tryAlongLine(FoundChain& found);
   void tryOtherBends(FoundChain& found);
   void takeHeldSegments(const ChainState& found);
@@ -61,12 +64,17 @@ class SecondLook {
   ChainModel model_;
   bool is_line_;  ///< it bends anywhere, and often looks the same all along
   bool is_open_line_;
+  bool is_uniform_line_;
   cv::Size image_size_;
   ChainSearch& search_;
   ObjectShape& shape_;
   ChainState trusted_;  ///< when the object was last seen for sure
   int frame_ = 0;       ///< of the kFramesPerLook from one look to the next
   int frames_doubted_ = 0;
+  LineEnds ends_;
+  // Of the line whose ends are tried.
+  ChainState sought_;
+  FoundChain other_;
   std::vector<bool> is_held_;  ///< of the segments: where they were found
   StepTimes times_;
 };
