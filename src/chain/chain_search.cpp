@@ -90,7 +90,8 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       overlaps_(initial.parts),
       springs_(model, layout.segments),
       placement_search_(model.appearance, image.size()),
-      coarse_(layout.segments.size()),
+      wide_(layout.segments.size()),
+      narrow_(layout.segments.size()),
       fine_(layout.segments.size()),
       middles_(layout.segments.size()),
       centers_(layout.segments.size()) {
@@ -132,13 +133,15 @@ void ChainSearch::find(const ChainState& sought, const SearchRange& range, Found
   sought_ = sought;
   takePoses(sought, previous_);
   range_ = range;
+  coarse_ = range.is_narrow ? &narrow_ : &wide_;
   springs_.relax(sought, range.looseness, layout_);
   found.state = sought;
   found.state.confidence = found.likeness = 0.0;
   StepTimes& times = found.state.times = StepTimes();
   lookCoarsely();
   times.part_costs = watch.lap();
-  const ChainMatch& match = matched(coarse_.poses, coarse_.segments, coarse_workspace_);
+  const ChainMatch& match =
+      matched(coarse_->candidates.poses, coarse_->candidates.segments, coarse_->workspace);
   times.matching = watch.lap();
   if (!match.found()) return;
   keepEdgeCosts(match);
@@ -226,26 +229,27 @@ void ChainSearch::lookCoarsely() {
   for (size_t m = 0; m < segments(); ++m) takeNodePositions(layout_, sought_, m, centers_[m]);
   const int step = coarseStep(smallestSide(previous_), range_.radius);
   const double radius = std::min(range_.radius, kWidestReach * step);
-  lookAround(previous_, step, radius, SearchStage::kCoarse, coarse_);
-  robustify(coarse_);
+  lookAround(previous_, step, radius, SearchStage::kCoarse, coarse_->candidates);
+  robustify(coarse_->candidates);
   for (size_t m = 0; m < segments(); ++m) {
     const SegmentModel& model = model_.segments[m];
-    coarse_.poses[m] = {previous_[m], model.orientation_hypotheses, model.orientation_step,
-                        model.scale_hypotheses, model.scale_step};
+    coarse_->candidates.poses[m] = {previous_[m], model.orientation_hypotheses,
+                                    model.orientation_step, model.scale_hypotheses,
+                                    model.scale_step};
   }
 }
 
 /// Up to a coarse step around the coarse match.
 void ChainSearch::lookFinely(const ChainMatch& coarse_match) {
-  interpolatePoses(coarse_.poses, coarse_match, poses_);
+  interpolatePoses(coarse_->candidates.poses, coarse_match, poses_);
   for (size_t m = 0; m < segments(); ++m) {
     const std::vector<cv::Point>& states = coarse_match.segments[m].states;
     centers_[m].clear();
     for (size_t k = 0; k < states.size(); ++k) {
-      centers_[m].push_back(coarse_.segments[m].positionOf(k, cv::Point2d(states[k])));
+      centers_[m].push_back(coarse_->candidates.segments[m].positionOf(k, cv::Point2d(states[k])));
     }
   }
-  const int coarse_step = coarse_.segments.front().step;
+  const int coarse_step = coarse_->candidates.segments.front().step;
   const int step = (coarse_step + kRefinedSteps - 1) / kRefinedSteps;
   const int reach = std::max(kLeastReach, coarse_step + step);
   lookAround(poses_, step, reach, SearchStage::kFine, fine_);
@@ -290,7 +294,7 @@ void ChainSearch::keepEdgeCosts(const ChainMatch& coarse_match) {
   edge_costs_.clear();
   for (size_t m = 0; m < segments(); ++m) {
     const size_t joint = layout_[m].entry ? 1 : 0;
-    const std::vector<cv::Mat1f>& costs = coarse_.costs[m].edges;
+    const std::vector<cv::Mat1f>& costs = coarse_->candidates.costs[m].edges;
     for (size_t k = 0; k < layout_[m].parts.size(); ++k) {
       const cv::Point& state = coarse_match.segments[m].states[joint + k];
       edge_costs_.push_back(costs.empty() ? 0.0 : costs[k](state));

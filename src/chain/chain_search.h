@@ -30,6 +30,7 @@ struct SearchRange {
   double radius = 0.0;         ///< of a part around where it is sought [px]
   double travel_weight = 0.0;  ///< cost of a part for every pixel from there
   double looseness = 1.0;      ///< of what bends anywhere: so much more than between two frames
+  bool is_narrow = false;  ///< far narrower than most: with maps of its own, which stay as large
 };
 
 /// What a search has found.
@@ -86,6 +87,13 @@ class ChainSearch {
     cv::Mat1f joint_costs;  ///< none
   };
 
+  /// The first look around, and what it keeps from call to call.
+  struct CoarseSearch {
+    explicit CoarseSearch(size_t count) : candidates(count) {}
+    Candidates candidates;
+    ChainMatcherWorkspace workspace;
+  };
+
   size_t segments() const { return layout_.size(); }
   double lengthRateOf(const SegmentLayout& segment, const SegmentState& initial);
   double sideOf(size_t m, double scale) const;
@@ -123,7 +131,9 @@ class ChainSearch {
   ChainState sought_;
   std::vector<SegmentPose> previous_;
   SearchRange range_;
-  Candidates coarse_;
+  CoarseSearch wide_;
+  CoarseSearch narrow_;
+  CoarseSearch* coarse_ = &wide_;
   Candidates fine_;
   std::vector<SegmentCandidates> middles_;         // of the fine ones, enough to tell poses apart
   std::vector<std::vector<cv::Point2d>> centers_;  // of each segment's nodes, around which to look
@@ -133,7 +143,6 @@ class ChainSearch {
   std::vector<double> costs_;       // of the parts by all channels
   std::vector<double> shares_;      // of PartOverlaps
   // One for each number of states, which would else be allocated anew.
-  ChainMatcherWorkspace coarse_workspace_;
   ChainMatcherWorkspace pose_workspace_;
   ChainRefinementWorkspace fine_workspace_;
   SegmentFitWorkspace fit_workspace_;

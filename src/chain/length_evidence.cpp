@@ -9,8 +9,8 @@ namespace chain_tracker {
 namespace {
 
 /// Mean distance up to which a line is of one colour, as noise and shades make it, and from which
-/// on its parts tell its length. Drawn lines of one colour are at 0.01 to 0.14, lines with marks and the
-/// bodies of fish at 0.34 to 0.76.
+/// on its parts tell its length. Drawn lines of one colour are at 0.01 to 0.14, lines with marks
+/// and the bodies of fish at 0.34 to 0.76.
 constexpr double kUniform = 0.15;
 constexpr double kMarked = 0.3;
 

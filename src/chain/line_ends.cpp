@@ -18,7 +18,7 @@ constexpr double kShorter = 1.0;
 constexpr double kLeastSeen = 0.25;
 /// Of the length in what speaks for a line. With all of it, a part more that is seen and one that
 /// is not would be worth the same.
-constexpr double kLengthPower = 0.5;
+constexpr double kLengthPower = 0.7;
 
 }  // namespace
 

@@ -48,6 +48,9 @@ constexpr int kFewestPlaces = 2;
 constexpr double kEndReach = 0.15;
 constexpr double kLooseEnds = 2.0;
 constexpr double kBetterEnds = 0.004;
+/// By so much of its length a line is shifted along itself to see whether it goes on there: then it
+/// looks as it did, else it loses as much.
+constexpr double kBeyond = 0.1;
 /// Of a line, from end to end, of its length in the first frame: an open one.
 constexpr double kOpen = 0.25;
 /// Share of the line that must stay where the line was seen.
@@ -83,11 +86,10 @@ SecondLook::SecondLook(const ChainModel& model, const ChainLayout& layout,
 void SecondLook::reconsider(const ChainState& before, FoundChain& found) {
   times_ = StepTimes();
   frame_ = (frame_ + 1) % kFramesPerLook;
+  if (is_open_line_) tryEnds(found);
   if (isDoubtful(found)) {
     ++frames_doubted_;
     lookElsewhere(before, found);
-  } else if (is_open_line_) {
-    tryEnds(found);
   } else if (frame_ == 0) {
     tryOtherBends(found);
   }
@@ -203,17 +205,37 @@ FoundChain SecondLook::refitted(FoundChain found) {
 
 /// Nothing but its ends may tell how long a line is, and how far it lies along itself.
 void SecondLook::tryEnds(FoundChain& found) {
+  if (!knows_ends_) learnEnds(found);
   sought_ = found.state;
-  if (ends_.stretch(sought_)) preferLonger(found);
+  if (ends_.stretch(sought_)) preferOtherEnds(found);
   sought_ = found.state;
-  if (ends_.rescale(sought_)) preferLonger(found);
+  if (tells_length_ && ends_.rescale(sought_)) preferOtherEnds(found);
 }
 
-/// What is found around `sought_`.
-void SecondLook::preferLonger(FoundChain& found) {
+/// What goes on beyond an end in the first frames is not all of a line: nothing tells its length.
+void SecondLook::learnEnds(const FoundChain& found) {
+  knows_ends_ = true;
+  const double parts = static_cast<double>(found.state.parts.size());
+  const int places = std::max(1, static_cast<int>(kBeyond * parts));
+  for (const int way : {-places, places}) {
+    sought_ = found.state;
+    slide(way, sought_);
+    seekEnds();
+    tells_length_ =
+        tells_length_ && other_.likeness < found.likeness * (1.0 - 0.5 * places / parts);
+  }
+}
+
+/// Around `sought_`.
+void SecondLook::seekEnds() {
   shape_.carry(sought_);
-  search_.find(sought_, {kEndReach * searchRadius(), 0.0, kLooseEnds}, other_);
+  search_.find(sought_, {kEndReach * searchRadius(), 0.0, kLooseEnds, true}, other_);
   times_ += other_.state.times;
+}
+
+/// What is found around `sought_`, if more speaks for it.
+void SecondLook::preferOtherEnds(FoundChain& found) {
+  seekEnds();
   const bool is_sure = other_.state.confidence >= model_.search.found_above;
   const double gain =
       ends_.score(other_.state, other_.likeness) - ends_.score(found.state, found.likeness);

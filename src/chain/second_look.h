@@ -56,7 +56,9 @@ class SecondLook {
   FoundChain reversed(const FoundChain& found);
   FoundChain refitted(FoundChain found);
   void tryEnds(FoundChain& found);
-  void preferLonger(FoundChain& found);
+  void learnEnds(const FoundChain& found);
+  void seekEnds();
+  void preferOtherEnds(FoundChain& found);
   void tryAlongLine(FoundChain& found);
   void tryOtherBends(FoundChain& found);
   void takeHeldSegments(const ChainState& found);
@@ -72,6 +74,8 @@ class SecondLook {
   int frame_ = 0;       ///< of the kFramesPerLook from one look to the next
   int frames_doubted_ = 0;
   LineEnds ends_;
+  bool knows_ends_ = false;
+  bool tells_length_ = true;  ///< by its ends
   // Of the line whose ends are tried.
   ChainState sought_;
   FoundChain other_;

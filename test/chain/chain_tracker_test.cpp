@@ -239,44 +239,6 @@ TEST(ChainTracker, deformableModelFollowsAPolyline) {
   }
 }
 
-/// Nothing but its ends tells how long it is.
-TEST(ChainTracker, lineOfOneColorKeepsItsLengthWhileItTurns) {
-  cv::RNG random(5);
-  const auto image = [&](const std::vector<cv::Point2d>& ends) {
-    cv::Mat3b drawn(240, 320);
-    random.fill(drawn, cv::RNG::UNIFORM, 90, 170);
-    cv::GaussianBlur(drawn, drawn, {}, 2.0);
-    cv::line(drawn, cv::Point(ends[0] * 16.0), cv::Point(ends[1] * 16.0), {40, 60, 210}, 8,
-             cv::LINE_AA, 4);
-    return drawn;
-  };
-  ChainModel model;
-  SegmentModel& segment = model.segments[0];
-  segment.layout = Layout::kDeformable;
-  segment.parts = 32;
-  segment.aspect = 0.04;
-  segment.window = 1.0;
-  segment.orientation_hypotheses = segment.scale_hypotheses = 1;
-  const auto ends = [](double angle) {
-    const cv::Point2d half = 90.0 * cv::Point2d(std::cos(angle), std::sin(angle));
-    return std::vector<cv::Point2d>{cv::Point2d(160.0, 120.0) - half,
-                                    cv::Point2d(160.0, 120.0) + half};
-  };
-  ChainTracker tracker(model, image(ends(0.0)), ends(0.0));
-  double angle = 0.0;
-  for (int frame = 1; frame <= 150; ++frame) {
-    const ChainState& state = tracker.update(image(ends(angle += 0.02)));
-    EXPECT_NEAR(1.0, state.segments[0].image_from_segment.scale, 1e-9);
-    if (frame % 30 != 0) continue;
-    SCOPED_TRACE("frame " + std::to_string(frame));
-    const cv::Point2d axis = state.points[1].position - state.points[0].position;
-    EXPECT_NEAR(180.0, cv::norm(axis), 9.0);
-    for (size_t i = 0; i < 2; ++i) {
-      EXPECT_LT(cv::norm(state.points[i].position - ends(angle)[i]), 9.0) << i;
-    }
-  }
-}
-
 /// Where one pose is searched, its steps are the most that the fit may turn and rescale in a frame.
 TEST(ChainTracker, singlePoseTurnsAndRescalesByOneStepAtMost) {
   const DrawnBox box;

@@ -33,7 +33,7 @@ TEST(LengthEvidence, isAllOfMarksHoweverFarApart) {
 
 TEST(LengthEvidence, growsWithTheDistanceOfTheColours) {
   const double alike = std::sqrt(0.3 * 0.6) + std::sqrt(0.7 * 0.4);
-  EXPECT_NEAR((std::sqrt(1.0 - alike) - 0.1) / 0.2, lengthEvidence(stripes(0.3, 0.6, 4)), 1e-6);
+  EXPECT_NEAR((std::sqrt(1.0 - alike) - 0.15) / 0.15, lengthEvidence(stripes(0.3, 0.6, 4)), 1e-6);
   EXPECT_LT(lengthEvidence(stripes(0.3, 0.55, 4)), lengthEvidence(stripes(0.3, 0.6, 4)));
 }
 

@@ -2,6 +2,7 @@
 #include "chain/line_motion.h"
 
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -58,6 +59,51 @@ TEST(Slide, goesOnTheWayThatTheEndLeads) {
   slide(-1, line);
   EXPECT_NEAR(0.0, cv::norm(line.parts[0].position - cv::Point2d(-10.0, 5.0)), 1e-9);
   EXPECT_NEAR(0.0, cv::norm(line.parts[1].position - cv::Point2d(0.0, 5.0)), 1e-9);
+}
+
+TEST(SeenStretch, goesFromTheFirstVisiblePartToTheLast) {
+  std::vector<cv::Point2d> stretch;
+  takeSeenStretch(lineOf("hvhvvh"), stretch);
+  ASSERT_EQ(4U, stretch.size());
+  EXPECT_EQ(cv::Point2d(10.0, 5.0), stretch.front());
+  EXPECT_EQ(cv::Point2d(40.0, 5.0), stretch.back());
+  EXPECT_NEAR(30.0, lengthOf(stretch), 1e-9);
+  takeSeenStretch(lineOf("hhh"), stretch);
+  EXPECT_TRUE(stretch.empty());
+  EXPECT_EQ(0.0, lengthOf(stretch));
+}
+
+TEST(SeenStretch, isHardlyLongerWhereThePartsZigzag) {
+  ChainState line = lineOf("vvvvvvvvvvvvvvvvvvvvv");
+  for (size_t k = 0; k < line.parts.size(); k += 2) line.parts[k].position.y += 6.0;
+  std::vector<cv::Point2d> stretch;
+  takeSeenStretch(line, stretch);
+  EXPECT_NEAR(200.0, lengthOf(stretch), 6.0);
+}
+
+TEST(LayAlong, goesStraightOnBeyondTheEnd) {
+  const std::vector<cv::Point2d> way = {{0.0, 0.0}, {0.0, 20.0}, {0.0, 25.0}};
+  ChainState line = lineOf("vhvh");
+  layAlong(way, {10.0, 5.0, 20.0}, false, line);
+  const std::vector<double> onwards = {0.0, 10.0, 15.0, 35.0};
+  for (size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(0.0, cv::norm(line.parts[k].position - cv::Point2d(0.0, onwards[k])), 1e-9) << k;
+    EXPECT_TRUE(line.parts[k].visible) << k;
+  }
+  layAlong(way, {10.0, 5.0, 20.0}, true, line);
+  const std::vector<double> backwards = {35.0, 25.0, 20.0, 0.0};
+  for (size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(0.0, cv::norm(line.parts[k].position - cv::Point2d(0.0, backwards[k])), 1e-9) << k;
+  }
+}
+
+TEST(LiesReversed, isWhereTheEndsAreExchanged) {
+  const ChainState line = lineOf("vvvv");
+  ChainState other = line;
+  for (PartState& part : other.parts) part.position += cv::Point2d(12.0, 40.0);
+  EXPECT_FALSE(liesReversed(other, line));
+  reverse(other);
+  EXPECT_TRUE(liesReversed(other, line));
 }
 
 TEST(Reverse, exchangesTheEnds) {
