@@ -95,30 +95,36 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       fine_(layout.segments.size()),
       middles_(layout.segments.size()),
       centers_(layout.segments.size()) {
+  is_clearly_marked_ = isClearlyMarked(colorsOf(initial.segments.front()));
   for (const SegmentLayout& segment : layout_) {
     variance_shares_.insert(variance_shares_.end(), segment.parts.size(),
                             isGrid(segment.layout) ? kCellVariance : 1.0);
   }
   for (size_t m = 0; m < segments(); ++m) {
-    length_rates_.push_back(lengthRateOf(layout_[m], initial.segments[m]));
+    // The joints of a link tell its length, whatever it looks like.
+    const bool is_link = layout_[m].entry || layout_[m].exit;
+    length_rates_.push_back(is_link ? 1.0 : lengthEvidence(colorsOf(initial.segments[m])));
   }
 }
 
-/// The joints of a link tell its length, whatever it looks like.
-double ChainSearch::lengthRateOf(const SegmentLayout& segment, const SegmentState& initial) {
-  if (segment.entry || segment.exit) return 1.0;
+/// Of the parts of a segment that the first frame shows.
+std::vector<RootHistogram> ChainSearch::colorsOf(const SegmentState& initial) {
   const auto first = static_cast<size_t>(initial.first_part);
   std::vector<RootHistogram> colors;
-  for (size_t k = first; k < first + segment.parts.size(); ++k) {
+  for (size_t k = first; k < first + static_cast<size_t>(initial.part_count); ++k) {
     const PartAppearance& learned = appearance_.learned().part(k, 0.0);
     if (learned.known >= 1.0F) colors.push_back(learned.colors);
   }
-  return lengthEvidence(colors);
+  return colors;
 }
 
 bool ChainSearch::isUniformLine() const {
   return segments() == 1 && layout_.front().layout == Layout::kDeformable &&
          length_rates_.front() < kTellsPlace;
+}
+
+bool ChainSearch::isMarkedLine() const {
+  return segments() == 1 && layout_.front().layout == Layout::kDeformable && is_clearly_marked_;
 }
 
 void ChainSearch::observe(const FoundChain& found) {

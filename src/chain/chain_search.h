@@ -50,6 +50,8 @@ class ChainSearch {
   const PartExpectations& expectations() const { return expectations_; }
   /// Whether it is a single line whose parts tell little of where on it they are.
   bool isUniformLine() const;
+  /// Whether it is one whose parts tell that beyond doubt.
+  bool isMarkedLine() const;
   /// To be called with every chain that was taken for the object.
   void observe(const FoundChain& found);
 
@@ -95,7 +97,7 @@ class ChainSearch {
   };
 
   size_t segments() const { return layout_.size(); }
-  double lengthRateOf(const SegmentLayout& segment, const SegmentState& initial);
+  std::vector<RootHistogram> colorsOf(const SegmentState& initial);
   double sideOf(size_t m, double scale) const;
   double smallestSide(const std::vector<SegmentPose>& poses) const;
 
@@ -125,7 +127,8 @@ class ChainSearch {
   PartOverlaps overlaps_;
   SpringRelaxation springs_;
   PlacementSearch placement_search_;
-  std::vector<double> length_rates_;     // of the segments, for fitSegment()
+  std::vector<double> length_rates_;  // of the segments, for fitSegment()
+  bool is_clearly_marked_ = false;
   std::vector<double> variance_shares_;  // of the parts, in what the chain alone would leave
   // Of the search that goes on.
   ChainState sought_;

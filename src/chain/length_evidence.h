@@ -16,4 +16,8 @@ namespace chain_tracker {
 /// O(parts).
 double lengthEvidence(const std::vector<RootHistogram>& colors);
 
+/// Whether they can be told so well that nothing else need tell where on the line each part is.
+/// O(parts).
+bool isClearlyMarked(const std::vector<RootHistogram>& colors);
+
 }  // namespace chain_tracker

@@ -77,6 +77,7 @@ SecondLook::SecondLook(const ChainModel& model, const ChainLayout& layout,
                layout.segments.front().layout == Layout::kDeformable),
       is_open_line_(is_line_ && isOpen(layout.segments.front())),
       is_uniform_line_(is_open_line_ && search.isUniformLine()),
+      tries_ends_(is_open_line_ && !search.isMarkedLine()),
       image_size_(image_size),
       search_(search),
       shape_(shape),
@@ -86,7 +87,7 @@ SecondLook::SecondLook(const ChainModel& model, const ChainLayout& layout,
 void SecondLook::reconsider(const ChainState& before, FoundChain& found) {
   times_ = StepTimes();
   frame_ = (frame_ + 1) % kFramesPerLook;
-  if (is_open_line_) tryEnds(found);
+  if (tries_ends_ && !isDoubtful(found)) tryEnds(found);
   if (isDoubtful(found)) {
     ++frames_doubted_;
     lookElsewhere(before, found);

@@ -67,6 +67,7 @@ class SecondLook {
   bool is_line_;  ///< it bends anywhere, and often looks the same all along
   bool is_open_line_;
   bool is_uniform_line_;
+  bool tries_ends_;
   cv::Size image_size_;
   ChainSearch& search_;
   ObjectShape& shape_;

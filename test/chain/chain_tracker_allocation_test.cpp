@@ -34,7 +34,7 @@ namespace {
 /// There and back, so that after a while nothing of it is new.
 constexpr int kPeriod = 8;
 /// Until the state, too, comes back to where it was.
-constexpr int kPeriods = 12;
+constexpr int kPeriods = 24;
 
 cv::Mat shifted(const cv::Mat& image, int frame) {
   const int phase = frame % kPeriod;

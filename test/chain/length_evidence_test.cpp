@@ -37,6 +37,11 @@ TEST(LengthEvidence, growsWithTheDistanceOfTheColours) {
   EXPECT_LT(lengthEvidence(stripes(0.3, 0.55, 4)), lengthEvidence(stripes(0.3, 0.6, 4)));
 }
 
+TEST(LengthEvidence, ofClearMarksIsBeyondDoubt) {
+  EXPECT_TRUE(isClearlyMarked(stripes(0.0, 1.0, 4)));
+  EXPECT_FALSE(isClearlyMarked(stripes(0.3, 0.6, 4)));
+}
+
 TEST(LengthEvidence, isNoneOfASinglePart) { EXPECT_EQ(0.0, lengthEvidence({colorsOf(0.5)})); }
 
 }  // namespace
