@@ -95,7 +95,7 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       fine_(layout.segments.size()),
       middles_(layout.segments.size()),
       centers_(layout.segments.size()) {
-  is_clearly_marked_ = isClearlyMarked(colorsOf(initial.segments.front()));
+  is_clearly_marked_ = chain_tracker::isClearlyMarked(colorsOf(initial.segments.front()));
   for (const SegmentLayout& segment : layout_) {
     variance_shares_.insert(variance_shares_.end(), segment.parts.size(),
                             isGrid(segment.layout) ? kCellVariance : 1.0);
@@ -118,14 +118,7 @@ std::vector<RootHistogram> ChainSearch::colorsOf(const SegmentState& initial) {
   return colors;
 }
 
-bool ChainSearch::isUniformLine() const {
-  return segments() == 1 && layout_.front().layout == Layout::kDeformable &&
-         length_rates_.front() < kTellsPlace;
-}
-
-bool ChainSearch::isMarkedLine() const {
-  return segments() == 1 && layout_.front().layout == Layout::kDeformable && is_clearly_marked_;
-}
+bool ChainSearch::isUniform() const { return length_rates_.front() < kTellsPlace; }
 
 void ChainSearch::observe(const FoundChain& found) {
   expectations_.observe(found.state.parts, found.likeness);

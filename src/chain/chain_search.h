@@ -48,10 +48,10 @@ class ChainSearch {
   ChainSearch& operator=(const ChainSearch&) = delete;
 
   const PartExpectations& expectations() const { return expectations_; }
-  /// Whether it is a single line whose parts tell little of where on it they are.
-  bool isUniformLine() const;
-  /// Whether it is one whose parts tell that beyond doubt.
-  bool isMarkedLine() const;
+  /// Whether the parts of a line, the only segment, tell little of where on it they are.
+  bool isUniform() const;
+  /// Whether they tell it beyond doubt.
+  bool isClearlyMarked() const { return is_clearly_marked_; }
   /// To be called with every chain that was taken for the object.
   void observe(const FoundChain& found);
 
