@@ -72,7 +72,11 @@ void scorePoints(const TrackedFrame& tracked, const std::map<int, TruePoint>& tr
                  FrameScore& score) {
   for (const auto& [index, point] : truth) {
     const auto k = static_cast<std::size_t>(index);
-    if (!point.visible || k >= tracked.points.size()) continue;
+    if (k >= tracked.points.size()) continue;
+    if (!point.visible) {
+      ++score.hidden_points;
+      continue;
+    }
     score.point_errors.push_back(
         tracked.lost ? kInfinity : cv::norm(tracked.points[k].position - point.position));
   }

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "occlusion_recovery.h"
+
 namespace chain_tracker {
 namespace {
 
@@ -83,11 +85,13 @@ Scores summarize(const std::vector<FrameScore>& frames, double object_length,
   std::vector<double> distances;
   std::vector<double> point_errors;
   bool was_lost = false;
+  OcclusionRecovery recovery(kPckShare * object_length);
   for (const FrameScore& frame : frames) {
     ++scores.frames;
     const bool found_again = was_lost && !frame.lost && frame.overlap > 0.0;
     was_lost = frame.lost;
     point_errors.insert(point_errors.end(), frame.point_errors.begin(), frame.point_errors.end());
+    recovery.observe(frame);
     if (!frame.has_object) continue;
     ++scores.scored_frames;
     overlaps.push_back(frame.overlap);
@@ -105,6 +109,8 @@ Scores summarize(const std::vector<FrameScore>& frames, double object_length,
   scores.part_error_median_px = percentile(known_errors, 0.5);
   scores.part_error_p95_px = percentile(known_errors, 0.95);
   scores.pck_10 = shareWithin(point_errors, kPckShare * object_length);
+  scores.occlusions = recovery.occlusions();
+  scores.occlusions_recovered = recovery.recovered();
   scores.latency_p50_ms = percentile(times_ms, 0.5);
   scores.latency_p99_ms = percentile(times_ms, 0.99);
   scores.fps = 1000.0 / mean(times_ms);

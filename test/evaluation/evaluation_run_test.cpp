@@ -177,6 +177,8 @@ TEST(EvaluationRun, PointsAreScoredOneByOneAndAsTheirBox) {
   EXPECT_EQ(frames[0].score.point_errors, (std::vector<double>{0.0, 0.0}));
   EXPECT_DOUBLE_EQ(frames[0].score.overlap, 1.0) << "the same points, the same box around them";
   EXPECT_EQ(frames[1].score.point_errors, std::vector<double>{3.0}) << "a hidden one is not asked";
+  EXPECT_EQ(frames[0].score.hidden_points, 0);
+  EXPECT_EQ(frames[1].score.hidden_points, 1);
   EXPECT_FALSE(frames[1].score.has_object) << "one point has no box";
   EXPECT_DOUBLE_EQ(result.runs.front().scores.part_error_mean_px, 1.0);
 }

@@ -143,7 +143,8 @@ class Output(ProgramTest):
         summary = summary_in(out)
         for scores in (summary, summary["baselines"]["kcf"]):
             for key in ("frames", "fps", "mean_iou", "success_auc", "pascal_50", "precision_20px",
-                        "mean_center_error_px", "pck_10", "lost_frames", "reacquired"):
+                        "mean_center_error_px", "pck_10", "lost_frames", "reacquired", "occlusions",
+                        "occlusions_recovered"):
                 self.assertIn(key, scores)
             self.assertEqual(set(scores["latency_ms"]), {"p50", "p99"})
             self.assertEqual(set(scores["part_error_px"]), {"mean", "median", "p95"})
@@ -195,6 +196,20 @@ class Suite(ProgramTest):
             self.assertEqual(table[name][3], f"{summary['baselines']['kcf']['mean_iou']:.3f}")
         mean = sum(float(table[name][2]) for name in ("bottle", "box")) / 2
         self.assertAlmostEqual(float(table["mean"][2]), mean, delta=2e-3)
+
+    def test_occlusions_and_recoveries_are_counted_over_all(self):
+        for scene in ("cable", "lips"):
+            self.render(f"occluded/{scene}", scene, 80, "--occlusions", "1",
+                        "--occlusion-frames", "15")
+        self.render("occluded/bottle", frames=8)
+        out = self.folder / "of_occluded"
+        self.evaluate("--suite", self.folder / "occluded", "--out", out, "--no-report")
+        table = self.table(out)
+        column = table["sequence"].index("found again")
+        for scene in ("cable", "lips"):
+            self.assertEqual(table[scene][column], "1 of 1")
+        self.assertEqual(table["bottle"][column], "", "nothing passed")
+        self.assertEqual(table["mean"][column], "2 of 2")
 
     def test_a_faulty_sequence_does_not_stop_the_others(self):
         suite = self.folder / "faulty_suite"

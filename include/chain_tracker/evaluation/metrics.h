@@ -42,6 +42,7 @@ struct FrameScore {
   double overlap = 0.0;              ///< 0 for a lost frame
   double center_error = 0.0;         ///< [px]; infinite for a lost frame
   std::vector<double> point_errors;  ///< of visible true points [px]; infinite for a lost frame
+  int hidden_points = 0;             ///< true points that are not visible
 };
 
 /// Scores of a tracker on a sequence, the columns of every table.
@@ -59,6 +60,8 @@ struct Scores {
   double pck_10 = 0.0;  ///< share of visible points within 10 % of the object's length
   int lost_frames = 0;  ///< lost although the object was there
   int reacquired = 0;   ///< times a lost object was found again with IoU > 0
+  int occlusions = 0;   ///< times more than a third of the points were hidden and came out again
+  int occlusions_recovered = 0;  ///< of these, with the object found within 10 frames
   double fps = 0.0;
   double latency_p50_ms = 0.0;
   double latency_p99_ms = 0.0;

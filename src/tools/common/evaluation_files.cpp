@@ -145,6 +145,8 @@ json toJson(const Scores& scores) {
           {"pck_10", number(scores.pck_10)},
           {"lost_frames", scores.lost_frames},
           {"reacquired", scores.reacquired},
+          {"occlusions", scores.occlusions},
+          {"occlusions_recovered", scores.occlusions_recovered},
           {"fps", number(scores.fps)},
           {"latency_ms",
            {{"p50", number(scores.latency_p50_ms)}, {"p99", number(scores.latency_p99_ms)}}}};

@@ -117,13 +117,19 @@ void runEntry(const std::string& suite, const EvaluationJob& job,
   if (code != 0) entry.fault = interrupted() ? "interrupted" : faultOf(code, log);
 }
 
+/// Of how many occlusions the object was found again after; nothing if there was none.
+std::string foundAgain(int recovered, int occlusions) {
+  if (occlusions == 0) return "";
+  return std::to_string(recovered) + " of " + std::to_string(occlusions);
+}
+
 /// Header and one row a sequence, in columns: sequence, model, frames, IoU of every tracker, then
 /// the chain tracker's further figures.
 std::vector<std::vector<std::string>> tableRows(const std::vector<SuiteEntry>& entries,
                                                 const std::vector<std::string>& baselines) {
   std::vector<std::string> header = {"sequence", "model", "frames", "IoU"};
   for (const std::string& name : baselines) header.push_back(name);
-  for (const char* name : {"AUC", "20 px", "points px", "PCK10", "lost", "fps"}) {
+  for (const char* name : {"AUC", "20 px", "points px", "PCK10", "lost", "found again", "fps"}) {
     header.emplace_back(name);
   }
   std::vector<std::vector<std::string>> rows = {header};
@@ -141,9 +147,11 @@ std::vector<std::vector<std::string>> tableRows(const std::vector<SuiteEntry>& e
     for (const std::string& name : baselines) {
       row.push_back(figure(s["baselines"][name]["mean_iou"], 3));
     }
-    row.insert(row.end(), {figure(s["success_auc"], 3), figure(s["precision_20px"], 3),
-                           figure(s["part_error_px"]["mean"], 1), figure(s["pck_10"], 3),
-                           std::to_string(s["lost_frames"].get<int>()), figure(s["fps"], 0)});
+    row.insert(row.end(),
+               {figure(s["success_auc"], 3), figure(s["precision_20px"], 3),
+                figure(s["part_error_px"]["mean"], 1), figure(s["pck_10"], 3),
+                std::to_string(s["lost_frames"].get<int>()),
+                foundAgain(s["occlusions_recovered"], s["occlusions"]), figure(s["fps"], 0)});
     rows.push_back(row);
   }
   return rows;
@@ -163,15 +171,27 @@ json meanOf(const std::vector<SuiteEntry>& entries, const std::string& baseline,
   return count > 0 ? json(sum / count) : json(nullptr);
 }
 
+int sumOf(const std::vector<SuiteEntry>& entries, const std::string& key) {
+  int sum = 0;
+  for (const SuiteEntry& entry : entries) {
+    if (!entry.summary.is_null()) sum += entry.summary[key].get<int>();
+  }
+  return sum;
+}
+
+/// Of what is counted, the sum.
 std::vector<std::string> meanRow(const std::vector<SuiteEntry>& entries,
                                  const std::vector<std::string>& baselines) {
   std::vector<std::string> row = {"mean", "", "", figure(meanOf(entries, "", "mean_iou"), 3)};
   for (const std::string& name : baselines) {
     row.push_back(figure(meanOf(entries, name, "mean_iou"), 3));
   }
-  row.insert(row.end(), {figure(meanOf(entries, "", "success_auc"), 3),
-                         figure(meanOf(entries, "", "precision_20px"), 3), "",
-                         figure(meanOf(entries, "", "pck_10"), 3), "", ""});
+  row.insert(
+      row.end(),
+      {figure(meanOf(entries, "", "success_auc"), 3),
+       figure(meanOf(entries, "", "precision_20px"), 3), "",
+       figure(meanOf(entries, "", "pck_10"), 3), "",
+       foundAgain(sumOf(entries, "occlusions_recovered"), sumOf(entries, "occlusions")), ""});
   return row;
 }
 
