@@ -38,6 +38,7 @@ class ChainTracker::Implementation {
   const ChainState& update(const cv::Mat& image) {
     requireSameKind(image, image_size_, image_type_);
     search_.show(image, searchLight());
+    second_look_.show(image);
     times_ = StepTimes();
     if (state_.status == TrackingStatus::kLost) {
       found_ = second_look_.findLost(1 + frames_lost_);

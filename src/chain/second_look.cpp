@@ -111,12 +111,16 @@ void SecondLook::lookElsewhere(const ChainState& before, FoundChain& found) {
 
 FoundChain SecondLook::findLost(int frames_lost) {
   times_ = StepTimes();
-  return look(frames_lost, kWidestWhenLost);
+  FoundChain found = look(frames_lost, kWidestWhenLost);
+  if (past_views_.show(found.state, image_)) found.state.confidence = found.likeness = 0.0;
+  return found;
 }
 
 void SecondLook::observe(const FoundChain& found) {
   const double least = is_line_ ? kTrustedLine : kTrusted;
-  if (found.likeness >= least * search_.expectations().usualLikeness()) trusted_ = found.state;
+  if (found.likeness < least * search_.expectations().usualLikeness()) return;
+  trusted_ = found.state;
+  past_views_.remember(image_, found.state);
 }
 
 bool SecondLook::isDoubtful(const FoundChain& found) const {
@@ -130,10 +134,12 @@ void SecondLook::preferBetter(FoundChain other, FoundChain& found) const {
   preferBetter(std::move(other), is_line_ ? kBetterLine : kClearlyBetter, found);
 }
 
-/// A chain elsewhere is believed in if it is better by `gain` and would do to end a loss.
+/// A chain elsewhere is believed in if it is better by `gain`, would do to end a loss and is
+/// nothing that stood there before.
 void SecondLook::preferBetter(FoundChain other, double gain, FoundChain& found) const {
   const bool is_sure = other.state.confidence >= model_.search.found_above;
-  if (is_sure && other.likeness > found.likeness + gain) found = std::move(other);
+  const bool is_better = other.likeness > found.likeness + gain;
+  if (is_sure && is_better && !past_views_.show(other.state, image_)) found = std::move(other);
 }
 
 /// Of a search that has failed so often [px]: twice as far every time, up to `widest`.

@@ -13,6 +13,7 @@
 #include "chain_tracker/chain/chain_state.h"
 #include "chain_tracker/chain/object_shape.h"
 #include "line_ends.h"
+#include "past_views.h"
 
 namespace chain_tracker {
 
@@ -26,6 +27,9 @@ class SecondLook {
 
   /// Of the parts [px], between two frames.
   double searchRadius() const { return reach(0, 0.0); }
+
+  /// The image that is looked at from now on; it must live as long.
+  void show(const cv::Mat& image) { image_ = image; }
 
   /// To be called with what was found around the place of `before`, the state of the last frame.
   /// If there is reason to doubt it, or some segments are hidden, `found` becomes another chain
@@ -69,10 +73,12 @@ class SecondLook {
   bool is_uniform_line_;
   bool tries_ends_;
   cv::Size image_size_;
+  cv::Mat image_;
   ChainSearch& search_;
   ObjectShape& shape_;
   ChainState trusted_;  ///< when the object was last seen for sure
-  int frame_ = 0;       ///< of the kFramesPerLook from one look to the next
+  PastViews past_views_;
+  int frame_ = 0;  ///< of the kFramesPerLook from one look to the next
   int frames_doubted_ = 0;
   LineEnds ends_;
   bool knows_ends_ = false;
