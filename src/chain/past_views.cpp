@@ -42,7 +42,7 @@ void PastViews::remember(const cv::Mat& image, const ChainState& object) {
   view.object = object;
 }
 
-bool PastViews::show(const ChainState& chain, const cv::Mat& image) const {
+bool PastViews::showed(const ChainState& chain, const cv::Mat& image) const {
   return shows(first_, chain, image) || shows(latest_, chain, image);
 }
 

@@ -18,7 +18,7 @@ class PastViews {
 
   /// Whether most of the parts of `chain` lie where `image` shows what it showed in one of the
   /// views kept, while the object was elsewhere. O(parts * (parts + pixels of a part)).
-  bool show(const ChainState& chain, const cv::Mat& image) const;
+  bool showed(const ChainState& chain, const cv::Mat& image) const;
 
  private:
   struct View {

@@ -112,7 +112,7 @@ void SecondLook::lookElsewhere(const ChainState& before, FoundChain& found) {
 FoundChain SecondLook::findLost(int frames_lost) {
   times_ = StepTimes();
   FoundChain found = look(frames_lost, kWidestWhenLost);
-  if (past_views_.show(found.state, image_)) found.state.confidence = found.likeness = 0.0;
+  if (past_views_.showed(found.state, image_)) found.state.confidence = found.likeness = 0.0;
   return found;
 }
 
@@ -139,7 +139,7 @@ void SecondLook::preferBetter(FoundChain other, FoundChain& found) const {
 void SecondLook::preferBetter(FoundChain other, double gain, FoundChain& found) const {
   const bool is_sure = other.state.confidence >= model_.search.found_above;
   const bool is_better = other.likeness > found.likeness + gain;
-  if (is_sure && is_better && !past_views_.show(other.state, image_)) found = std::move(other);
+  if (is_sure && is_better && !past_views_.showed(other.state, image_)) found = std::move(other);
 }
 
 /// Of a search that has failed so often [px]: twice as far every time, up to `widest`.

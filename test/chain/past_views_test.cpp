@@ -52,39 +52,41 @@ class PastViewsTest : public ::testing::Test {
   PastViews views_;
 };
 
-TEST(PastViews, NothingIsKnownAtFirst) { EXPECT_FALSE(PastViews().show(chainAt(20, 20), empty())); }
+TEST(PastViews, NothingIsKnownAtFirst) {
+  EXPECT_FALSE(PastViews().showed(chainAt(20, 20), empty()));
+}
 
 TEST_F(PastViewsTest, ATwinThatStandsStillIsKnown) {
-  EXPECT_TRUE(views_.show(kTwin, with(kElsewhere, kTwin)));
+  EXPECT_TRUE(views_.showed(kTwin, with(kElsewhere, kTwin)));
 }
 
 TEST_F(PastViewsTest, WhatHasComeIsNot) {
-  EXPECT_FALSE(views_.show(kElsewhere, with(kElsewhere, kTwin)));
+  EXPECT_FALSE(views_.showed(kElsewhere, with(kElsewhere, kTwin)));
 }
 
 TEST_F(PastViewsTest, TheObjectItselfMayStandStill) {
-  EXPECT_FALSE(views_.show(kObject, with(kObject, kTwin)));
+  EXPECT_FALSE(views_.showed(kObject, with(kObject, kTwin)));
 }
 
 TEST_F(PastViewsTest, ATwinThatLooksOtherwiseTellsNothing) {
-  EXPECT_FALSE(views_.show(kTwin, 1.5 * with(kElsewhere, kTwin))) << "in another light";
+  EXPECT_FALSE(views_.showed(kTwin, 1.5 * with(kElsewhere, kTwin))) << "in another light";
 }
 
 TEST_F(PastViewsTest, MostOfTheChainHasToStandThere) {
   const ChainState moved = chainAt(20 + 2 * kSide, 80);  // three of its five parts lie on the twin
-  EXPECT_TRUE(views_.show(moved, with(kElsewhere, kTwin)));
+  EXPECT_TRUE(views_.showed(moved, with(kElsewhere, kTwin)));
   const ChainState farther = chainAt(20 + 3 * kSide, 80);
-  EXPECT_FALSE(views_.show(farther, with(farther, kTwin)));
+  EXPECT_FALSE(views_.showed(farther, with(farther, kTwin)));
 }
 
 TEST_F(PastViewsTest, PartsBeyondTheImageTellNothing) {
-  EXPECT_FALSE(views_.show(chainAt(500, 500), empty()));
+  EXPECT_FALSE(views_.showed(chainAt(500, 500), empty()));
 }
 
 TEST_F(PastViewsTest, TheFirstViewIsKeptAndOneOfTheLast) {
   for (int i = 0; i < 20; ++i) views_.remember(with(kTwin, kElsewhere), kTwin);
-  EXPECT_TRUE(views_.show(kTwin, with(kObject, kTwin))) << "seen in the first";
-  EXPECT_TRUE(views_.show(kElsewhere, with(kObject, kElsewhere))) << "seen in the latest";
+  EXPECT_TRUE(views_.showed(kTwin, with(kObject, kTwin))) << "seen in the first";
+  EXPECT_TRUE(views_.showed(kElsewhere, with(kObject, kElsewhere))) << "seen in the latest";
 }
 
 }  // namespace
