@@ -79,10 +79,12 @@ class Matcher {
   }
 
   JointModel joint(size_t m) const { return jointOf(problem_.model, m); }
+  const JointRest& rest(size_t m) const { return problem_.rests[m]; }
 
   /// Cost of pose g of segment m with pose h of the next one.
   float jointBetween(size_t m, size_t g, size_t h) const {
-    return static_cast<float>(jointCost(joint(m), pose(m, g), pose(m + 1, h)));
+    return static_cast<float>(jointCost(joint(m), pose(m, g), pose(m + 1, h)) +
+                              restCost(rest(m), pose(m, g), pose(m + 1, h)));
   }
 
   /// ahead[m][h]: least cost of segments 0..m that end in each state under pose h.
@@ -125,16 +127,19 @@ class Matcher {
   /// The message to each pose of segment m from the one before: the least over that one's poses.
   void mergeForward(size_t m) {
     const auto cost = [&](size_t from, size_t to) { return jointBetween(m - 1, from, to); };
-    merge(workspace_.ahead[m - 1], receivers(m, joint(m - 1)), cost, workspace_.into[m]);
+    merge(workspace_.ahead[m - 1], receivers(m, m - 1), cost, workspace_.into[m]);
   }
 
   void mergeBackward(size_t m) {
     const auto cost = [&](size_t from, size_t to) { return jointBetween(m, to, from); };
-    merge(workspace_.behind[m + 1], receivers(m, joint(m)), cost, workspace_.from[m]);
+    merge(workspace_.behind[m + 1], receivers(m, m), cost, workspace_.from[m]);
   }
 
-  /// A free joint, which costs nothing at any angle, sends the same message to all poses.
-  size_t receivers(size_t m, const JointModel& joint) const { return isFree(joint) ? 1 : poses(m); }
+  /// Poses of segment m that are told apart: a joint that costs nothing at any angle sends the same
+  /// message to all.
+  size_t receivers(size_t m, size_t from_joint) const {
+    return isFree(joint(from_joint)) && rest(from_joint).sigma <= 0.0 ? 1 : poses(m);
+  }
 
   static const cv::Mat1f& messageTo(size_t pose, const std::vector<cv::Mat1f>& messages) {
     return messages[std::min(pose, messages.size() - 1)];

@@ -88,6 +88,7 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       appearance_(model.appearance, image, layout, initial),
       expectations_(appearance_.learned(), model.appearance, initial.parts.size()),
       overlaps_(initial.parts),
+      joint_memory_(initial),
       springs_(model, layout.segments),
       placement_search_(model.appearance, image.size()),
       wide_(layout.segments.size()),
@@ -122,6 +123,7 @@ bool ChainSearch::isUniform() const { return length_rates_.front() < kTellsPlace
 
 void ChainSearch::observe(const FoundChain& found) {
   expectations_.observe(found.state.parts, found.likeness);
+  joint_memory_.observe(found.state, expectations_.usualConfidence());
   appearance_.keepLight();
   const bool tells_light = found.likeness >= kTellsLight * expectations_.usualLikeness();
   if (tells_light) appearance_.observeLight(found.state);
@@ -179,7 +181,8 @@ ChainSearch::Linkage ChainSearch::linkageOf(const ChainState& state) {
   for (size_t m = 0; m < segments(); ++m) {
     links.segments.push_back({votersOf(state, m), sideOf(m, poses[m].scale), poses[m]});
     if (m == 0) continue;
-    links.hinges.push_back({jointPosition(layout_, state, m - 1), jointOf(model_, m - 1)});
+    links.hinges.push_back({jointPosition(layout_, state, m - 1), jointOf(model_, m - 1),
+                            joint_memory_.rests()[m - 1]});
   }
   return links;
 }
@@ -323,7 +326,8 @@ void ChainSearch::robustify(Candidates& candidates) const {
 const ChainMatch& ChainSearch::matched(const std::vector<PoseGrid>& poses,
                                        const std::vector<SegmentCandidates>& candidates,
                                        ChainMatcherWorkspace& workspace) const {
-  return matchChain({layout_, model_, previous_, poses, candidates}, workspace);
+  return matchChain({layout_, model_, previous_, joint_memory_.rests(), poses, candidates},
+                    workspace);
 }
 
 const ChainMatch& ChainSearch::matchFinePoses() {

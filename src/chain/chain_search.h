@@ -17,6 +17,7 @@
 #include "chain_tracker/chain/part_costs.h"
 #include "chain_tracker/chain/pose_grid.h"
 #include "chain_tracker/chain/segment_candidates.h"
+#include "joint_memory.h"
 #include "part_expectations.h"
 #include "part_overlaps.h"
 #include "placement_search.h"
@@ -125,6 +126,7 @@ class ChainSearch {
   AppearanceCosts appearance_;
   PartExpectations expectations_;
   PartOverlaps overlaps_;
+  JointMemory joint_memory_;
   SpringRelaxation springs_;
   PlacementSearch placement_search_;
   std::vector<double> length_rates_;  // of the segments, for fitSegment()

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "robust_costs.h"
 #include "state_motion.h"
@@ -181,7 +182,7 @@ class ChainPlacement {
       const Similarity motion =
           rigidMotion(wrapAngle(motions_[from].angle + bend), hinge.position, joint);
       const double cost = costOf(m, motion) + kBendCost * hidden * std::abs(bend) / CV_PI +
-                          limitCost(m, motion.angle, from, hinge.limits);
+                          jointCosts(m, motion.angle, from, hinge);
       if (cost >= least) continue;
       least = cost;
       motions_[m] = motion;
@@ -189,12 +190,13 @@ class ChainPlacement {
     return least;
   }
 
-  double limitCost(size_t m, double turn, size_t from, const JointModel& limits) const {
+  double jointCosts(size_t m, double turn, size_t from, const Hinge& hinge) const {
     SegmentPose hung = segments_[m].pose;
     SegmentPose other = segments_[from].pose;
     hung.orientation += turn;
     other.orientation += motions_[from].angle;
-    return m < from ? jointCost(limits, hung, other) : jointCost(limits, other, hung);
+    if (m < from) std::swap(hung, other);
+    return jointCost(hinge.limits, other, hung) + restCost(hinge.rest, other, hung);
   }
 
   const std::vector<RigidSegment>& segments_;

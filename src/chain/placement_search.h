@@ -35,6 +35,7 @@ struct RigidSegment {
 struct Hinge {
   cv::Point2d position;  ///< where the object was [px]
   JointModel limits;
+  JointRest rest;
 };
 
 /// A turn and the cell of what it is about.

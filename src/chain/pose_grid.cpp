@@ -12,6 +12,8 @@ namespace {
 /// Of the angle beyond a joint's limits [rad].
 constexpr double kLimitSigma = 0.05;
 
+constexpr double kMostRestCost = 20.0;
+
 double halfSquare(double x) { return 0.5 * x * x; }
 
 /// Where the parabola through three equidistant values is least, in steps from the middle one,
@@ -61,6 +63,12 @@ double jointCost(const JointModel& joint, const SegmentPose& before, const Segme
 
 bool isFree(const JointModel& joint) {
   return joint.min_angle <= -kFreeJoint && joint.max_angle >= kFreeJoint;
+}
+
+double restCost(const JointRest& rest, const SegmentPose& before, const SegmentPose& behind) {
+  if (rest.sigma <= 0.0) return 0.0;
+  const double bend = wrapAngle(behind.orientation - before.orientation - rest.angle);
+  return std::min(kMostRestCost, halfSquare(bend / rest.sigma));
 }
 
 SegmentPose interpolatePose(const PoseGrid& poses, const cv::Mat1d& energies) {

@@ -31,15 +31,24 @@ double temporalCostByHand(const SegmentModel& model, const SegmentPose& previous
   return 0.5 * (turn_sigmas * turn_sigmas + growth_sigmas * growth_sigmas);
 }
 
+double restCostByHand(const JointRest& rest, const SegmentPose& before, const SegmentPose& behind) {
+  if (rest.sigma == 0.0) return 0.0;
+  double bend = behind.orientation - before.orientation - rest.angle;
+  while (bend > CV_PI) bend -= 2.0 * CV_PI;
+  while (bend < -CV_PI) bend += 2.0 * CV_PI;
+  return std::min(20.0, 0.5 * bend * bend / (rest.sigma * rest.sigma));
+}
+
 /// Several segments end to end, few states and poses, somewhere, with random costs.
 struct TinyChain {
   std::vector<SegmentLayout> segments;
   ChainModel model;
   std::vector<SegmentPose> previous;
+  std::vector<JointRest> rests;
   std::vector<PoseGrid> poses;
   std::vector<SegmentCandidates> candidates;
 
-  MatchingProblem problem() const { return {segments, model, previous, poses, candidates}; }
+  MatchingProblem problem() const { return {segments, model, previous, rests, poses, candidates}; }
 
   /// All node maps in order; a joint is one node.
   std::vector<cv::Mat1f> nodeCosts() const {
@@ -75,6 +84,7 @@ struct TinyChain {
       if (m > 0 && !model.joints.empty()) {
         cost += jointCost(model.joints[m - 1], chosen[m - 1], chosen[m]);
       }
+      if (m > 0) cost += restCostByHand(rests[m - 1], chosen[m - 1], chosen[m]);
     }
     return cost;
   }
@@ -120,6 +130,7 @@ TinyChain tinyChain(RandomInputs& random, const TinySize& size, bool limited) {
     chain.candidates.push_back(candidates);
     start = nodes.back();
   }
+  chain.rests.resize(size.edges.size() - 1);
   for (size_t m = 1; limited && m < chain.segments.size(); ++m) {
     const double angle =
         wrapAngle(chain.previous[m].orientation - chain.previous[m - 1].orientation);
@@ -202,6 +213,21 @@ TEST(MatchChain, isGloballyOptimalForJoinedSegments) {
   }
 }
 
+TEST(MatchChain, isGloballyOptimalForJointsThatRest) {
+  RandomInputs random(6);
+  ChainMatcherWorkspace workspace;
+  for (bool limited : {false, true}) {
+    for (int repeat = 0; repeat < 6; ++repeat) {
+      SCOPED_TRACE("limited " + std::to_string(limited) + ", repeat " + std::to_string(repeat));
+      TinyChain chain = tinyChain(random, {{1, 1, 1}, 3, 1, 1}, limited);
+      for (JointRest& rest : chain.rests) rest = {random.real(-CV_PI, CV_PI), random.real(0.1, 2)};
+      expectGloballyOptimal(chain, workspace);
+      chain.rests.front().sigma = 0.0;
+      expectGloballyOptimal(chain, workspace);
+    }
+  }
+}
+
 /// The limit changes the answer: the two problems differ in nothing else.
 TEST(MatchChain, limitsTurnJointsBack) {
   RandomInputs random(5);
@@ -240,11 +266,13 @@ TEST(MatchChain, findsThePoseThatTheCostsShow) {
   ChainModel model;
   model.segments[0].orientation_sigma = model.segments[0].scale_sigma = 10.0;
   const std::vector<SegmentPose> previous = {{0.2, 1.0}};
+  const std::vector<JointRest> rests;
   const std::vector<PoseGrid> poses = {{previous[0], 5, 0.1, 3, 0.05}};
   for (size_t pose = 0; pose < poses[0].size(); ++pose) {
     const auto candidates = candidatesShowing(segments[0], poses[0].at(pose));
     ChainMatcherWorkspace workspace;
-    const ChainMatch match = matchChain({segments, model, previous, poses, candidates}, workspace);
+    const ChainMatch match =
+        matchChain({segments, model, previous, rests, poses, candidates}, workspace);
     ASSERT_TRUE(match.found());
     EXPECT_EQ(pose, match.segments[0].pose);
     for (const cv::Point& state : match.segments[0].states) {

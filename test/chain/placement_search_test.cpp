@@ -61,20 +61,21 @@ class Search {
         appearance_(image, layout_, model.appearance),
         search_(model.appearance, image.size()) {}
 
-  std::vector<Similarity> find(const cv::Mat& image, const JointModel& limits = JointModel()) {
-    learnLinks(limits);
+  std::vector<Similarity> find(const cv::Mat& image, const JointModel& limits = JointModel(),
+                               const JointRest& rest = JointRest()) {
+    learnLinks(limits, rest);
     FramePixels pixels(appearance_.palette(), image);
     return search_.find(segments_, hinges_, 200.0, pixels);
   }
 
   std::vector<Similarity> hang(const cv::Mat& image, const std::vector<bool>& seen) {
-    learnLinks(JointModel());
+    learnLinks(JointModel(), JointRest());
     FramePixels pixels(appearance_.palette(), image);
     return search_.hang(segments_, hinges_, seen, pixels);
   }
 
  private:
-  void learnLinks(const JointModel& limits) {
+  void learnLinks(const JointModel& limits, const JointRest& rest) {
     segments_.clear();
     hinges_.clear();
     size_t part = 0;
@@ -87,7 +88,8 @@ class Search {
                                   appearance_.part(part++, 0.0).colors, 4.0});
       }
       segments_.push_back(segment);
-      if (layout.exit) hinges_.push_back({layout.image_from_segment.apply(*layout.exit), limits});
+      if (!layout.exit) continue;
+      hinges_.push_back({layout.image_from_segment.apply(*layout.exit), limits, rest});
     }
   }
 
@@ -151,6 +153,17 @@ TEST(PlacementSearch, doesNotBendBeyondAJointsLimits) {
   EXPECT_NEAR(1.6, wrapAngle(free[1].angle + 0.6 - free[0].angle - 0.2), 0.2);
   const std::vector<Similarity> limited = search.find(bent, {0.0, 1.0});
   EXPECT_LT(wrapAngle(limited[1].angle + 0.6 - limited[0].angle - 0.2), 1.2);
+}
+
+TEST(PlacementSearch, bendsAJointTowardsItsRest) {
+  const cv::Point2d start(60.0, 60.0);
+  const cv::Point2d there(120.0, 150.0);
+  const std::vector<double> angles = {0.2, 0.6};
+  const DrawnArm arm(2);
+  Search search(linksOf(), arm.image(start, angles), DrawnArm::vertices(start, angles));
+  const cv::Mat bent = arm.image(there, {-0.9, 0.7});
+  const std::vector<Similarity> rested = search.find(bent, JointModel(), {0.4, 0.05});
+  EXPECT_NEAR(0.4, wrapAngle(rested[1].angle + 0.6 - rested[0].angle - 0.2), 0.2);
 }
 
 TEST(PlacementSearch, hangsWhatIsNotSeenFromWhatIs) {

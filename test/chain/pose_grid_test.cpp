@@ -77,6 +77,18 @@ TEST(JointCost, ofAFreeJointIsNothing) {
   }
 }
 
+TEST(RestCost, risesAroundTheAngleOfRestAndNoFurtherThanTwenty) {
+  const JointRest rest{3.0, 0.2};
+  EXPECT_NEAR(0.0, restCost(rest, {0.5, 1.0}, {3.5, 2.0}), 1e-12);
+  EXPECT_NEAR(0.5, restCost(rest, {0.5, 1.0}, {3.3, 1.0}), 1e-9);
+  EXPECT_NEAR(2.0, restCost(rest, {0.0, 1.0}, {3.4 - 2.0 * CV_PI, 1.0}), 1e-9);
+  EXPECT_EQ(20.0, restCost(rest, {0.0, 1.0}, {0.0, 1.0}));
+}
+
+TEST(RestCost, isNothingWhereAJointRestsAnywhere) {
+  EXPECT_EQ(0.0, restCost({1.0, 0.0}, {0.0, 1.0}, {-2.0, 1.0}));
+}
+
 cv::Mat1d bowl(double row_minimum, double column_minimum) {
   cv::Mat1d energies(5, 3);
   for (int row = 0; row < 5; ++row) {

@@ -26,6 +26,7 @@ struct MatchingProblem {
   const std::vector<SegmentLayout>& segments;
   const ChainModel& model;
   const std::vector<SegmentPose>& previous;
+  const std::vector<JointRest>& rests;  ///< of the joints, one fewer than segments
   const std::vector<PoseGrid>& poses;
   const std::vector<SegmentCandidates>& candidates;
 };
@@ -62,9 +63,9 @@ struct ChainMatcherWorkspace {
   ChainMatch match;
 };
 
-/// The chain and the poses of least energy, temporal and joint costs included; valid until the
-/// workspace is used again.
-/// O(parts x poses x states x offsets of a stencil), and O(states x poses^2) at a limited joint.
+/// The chain and the poses of least energy, temporal, joint and rest costs included; valid until
+/// the workspace is used again. O(parts x poses x states x offsets of a stencil), and O(states x
+/// poses^2) at a joint that is limited or rests.
 const ChainMatch& matchChain(const MatchingProblem& problem, ChainMatcherWorkspace& workspace);
 
 }  // namespace chain_tracker

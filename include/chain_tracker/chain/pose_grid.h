@@ -47,6 +47,16 @@ double jointCost(const JointModel& joint, const SegmentPose& before, const Segme
 /// Whether jointCost() is zero for any two poses.
 bool isFree(const JointModel& joint);
 
+/// The angle to which a joint returns where nothing tells how it is bent, as JointModel counts it.
+struct JointRest {
+  double angle = 0.0;  ///< [rad]
+  double sigma = 0.0;  ///< standard deviation of the bend from there [rad]; 0: it rests anywhere
+};
+
+/// Cost of the angle between two joined segments that are not seen; at most 20, as they may have
+/// bent by any angle meanwhile.
+double restCost(const JointRest& rest, const SegmentPose& before, const SegmentPose& behind);
+
 /// The pose between those of the grid at which parabolas through the energies (orientations x
 /// scales; infinite where no pose was tried) of the best pose and of its neighbours are least. The
 /// best one itself where it has no neighbours on both sides.
