@@ -168,7 +168,9 @@ void ChainSearch::findAnywhere(const ChainState& sought, double reach, const Sea
 void ChainSearch::findHung(const ChainState& sought, const std::vector<bool>& seen,
                            const SearchRange& range, FoundChain& found) {
   Stopwatch watch;
-  const Linkage links = linkageOf(sought);
+  Linkage links = linkageOf(sought);
+  // What is looked for at all angles is believed to have left its rest.
+  for (Hinge& hinge : links.hinges) hinge.rest = JointRest();
   findMoved(sought,
             placement_search_.hang(links.segments, links.hinges, seen, appearance_.pixels()), range,
             watch, found);

@@ -26,9 +26,9 @@ JointMemory::JointMemory(const ChainState& initial) : rests_(initial.segments.si
 }
 
 void JointMemory::observe(const ChainState& found, double usual) {
-  const auto isSeen = [&](size_t m) { return found.segments[m].confidence >= kSeen * usual; };
+  const auto is_seen = [&](size_t m) { return found.segments[m].confidence >= kSeen * usual; };
   for (size_t m = 0; m < rests_.size(); ++m) {
-    if (isSeen(m) && isSeen(m + 1)) {
+    if (is_seen(m) && is_seen(m + 1)) {
       rests_[m] = {bendOf(found, m), 0.0};
     } else {
       rests_[m].sigma = kSigma;
