@@ -91,6 +91,7 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       joint_memory_(initial),
       springs_(model, layout.segments),
       placement_search_(model.appearance, image.size()),
+      line_alignment_(layout.segments.front(), model.appearance, image.size()),
       wide_(layout.segments.size()),
       narrow_(layout.segments.size()),
       fine_(layout.segments.size()),
@@ -176,12 +177,19 @@ void ChainSearch::findHung(const ChainState& sought, const std::vector<bool>& se
             watch, found);
 }
 
+bool ChainSearch::alignLine(ChainState& line) {
+  const double side = sideOf(0, line.segments.front().image_from_segment.scale);
+  return line_alignment_.align(votersOf(line, 0, line.parts.size()), side, isUniform(),
+                               appearance_.pixels(), line);
+}
+
 ChainSearch::Linkage ChainSearch::linkageOf(const ChainState& state) {
   std::vector<SegmentPose> poses;
   takePoses(state, poses);
   Linkage links;
   for (size_t m = 0; m < segments(); ++m) {
-    links.segments.push_back({votersOf(state, m), sideOf(m, poses[m].scale), poses[m]});
+    const size_t wanted = std::max(kFewestVoters, kVoters / segments());
+    links.segments.push_back({votersOf(state, m, wanted), sideOf(m, poses[m].scale), poses[m]});
     if (m == 0) continue;
     links.hinges.push_back({jointPosition(layout_, state, m - 1), jointOf(model_, m - 1),
                             joint_memory_.rests()[m - 1]});
@@ -199,10 +207,9 @@ void ChainSearch::findMoved(const ChainState& sought, const std::vector<Similari
   found.state.times.part_costs += placing;
 }
 
-/// Every so many parts, from end to end.
-std::vector<Voter> ChainSearch::votersOf(const ChainState& state, size_t m) {
+/// Every so many parts, from end to end, that at most `wanted` are asked.
+std::vector<Voter> ChainSearch::votersOf(const ChainState& state, size_t m, size_t wanted) {
   const size_t parts = layout_[m].parts.size();
-  const size_t wanted = std::max(kFewestVoters, kVoters / segments());
   const size_t every = (parts + wanted - 1) / wanted;
   const auto first = static_cast<size_t>(state.segments[m].first_part);
   std::vector<Voter> voters;

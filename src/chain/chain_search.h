@@ -18,6 +18,7 @@
 #include "chain_tracker/chain/pose_grid.h"
 #include "chain_tracker/chain/segment_candidates.h"
 #include "joint_memory.h"
+#include "line_alignment.h"
 #include "part_expectations.h"
 #include "part_overlaps.h"
 #include "placement_search.h"
@@ -73,6 +74,9 @@ class ChainSearch {
   void findHung(const ChainState& sought, const std::vector<bool>& seen, const SearchRange& range,
                 FoundChain& found);
 
+  /// Lays a line, the only segment, as LineAlignment says. False if too little of it is seen.
+  bool alignLine(ChainState& line);
+
  private:
   /// The object as links, of which some parts are asked.
   struct Linkage {
@@ -112,7 +116,7 @@ class ChainSearch {
   Linkage linkageOf(const ChainState& state);
   void findMoved(const ChainState& sought, const std::vector<Similarity>& motions,
                  const SearchRange& range, Stopwatch& watch, FoundChain& found);
-  std::vector<Voter> votersOf(const ChainState& state, size_t m);
+  std::vector<Voter> votersOf(const ChainState& state, size_t m, size_t wanted);
   const ChainMatch& matched(const std::vector<PoseGrid>& poses,
                             const std::vector<SegmentCandidates>& candidates,
                             ChainMatcherWorkspace& workspace) const;
@@ -129,6 +133,7 @@ class ChainSearch {
   JointMemory joint_memory_;
   SpringRelaxation springs_;
   PlacementSearch placement_search_;
+  LineAlignment line_alignment_;      // of the first segment
   std::vector<double> length_rates_;  // of the segments, for fitSegment()
   bool is_clearly_marked_ = false;
   std::vector<double> variance_shares_;  // of the parts, in what the chain alone would leave

@@ -64,7 +64,7 @@ void LineEnds::layAlongSeen(bool moves_last, ChainState& line) {
   lengths_ = first_lengths_;
   for (double& length : lengths_) length *= line.segments.front().image_from_segment.scale;
   if (!moves_last) std::reverse(stretch_.begin(), stretch_.end());
-  layAlong(stretch_, lengths_, !moves_last, line);
+  layAlong(stretch_, 0.0, lengths_, !moves_last, line);
 }
 
 }  // namespace chain_tracker

@@ -29,50 +29,13 @@ void slideOnwards(int places, std::vector<PartState>& parts) {
   }
 }
 
-/// Walks along a polyline of at least two points and straight on beyond its end.
-class Walk {
- public:
-  explicit Walk(const std::vector<cv::Point2d>& way) : way_(way), place_(way.front()) {
-    const size_t steps = std::min<size_t>(kEndSteps, way.size() - 1);
-    const cv::Point2d end = way.back() - way[way.size() - 1 - steps];
-    const double length = cv::norm(end);
-    if (length > 0.0) ahead_ = end / length;
-  }
-
-  const cv::Point2d& place() const { return place_; }
-
-  void go(double length) {
-    while (next_ < way_.size()) {
-      const cv::Point2d edge = way_[next_] - place_;
-      const double left = cv::norm(edge);
-      if (length < left) {
-        place_ += edge * (length / left);
-        return;
-      }
-      length -= left;
-      place_ = way_[next_++];
-    }
-    place_ += length * ahead_;
-  }
-
- private:
-  const std::vector<cv::Point2d>& way_;
-  cv::Point2d place_;
-  cv::Point2d ahead_;
-  size_t next_ = 1;
-};
+/// Of the steps from the place of `from` to that of `to`; none where these coincide.
+cv::Point2d directionOf(const cv::Point2d& from, const cv::Point2d& to) {
+  const double length = cv::norm(to - from);
+  return length > 0.0 ? (to - from) / length : cv::Point2d();
+}
 
 }  // namespace
-
-int hiddenEnd(const ChainState& line) {
-  const auto is_visible = [](const PartState& part) { return part.visible; };
-  const auto first = std::find_if(line.parts.begin(), line.parts.end(), is_visible);
-  if (first == line.parts.end()) return 0;
-  const auto last = std::find_if(line.parts.rbegin(), line.parts.rend(), is_visible);
-  const auto before = static_cast<int>(first - line.parts.begin());
-  const auto behind = static_cast<int>(last - line.parts.rbegin());
-  return before > behind ? before : -behind;
-}
 
 void slide(int places, ChainState& line) {
   if (places < 0) std::reverse(line.parts.begin(), line.parts.end());
@@ -100,15 +63,25 @@ double lengthOf(const std::vector<cv::Point2d>& polyline) {
   return length;
 }
 
-void layAlong(const std::vector<cv::Point2d>& way, const std::vector<double>& lengths,
+cv::Point2d pointAlong(const std::vector<cv::Point2d>& way, double place) {
+  const size_t steps = std::min<size_t>(kEndSteps, way.size() - 1);
+  if (place < 0.0) return way.front() + place * directionOf(way.front(), way[steps]);
+  for (size_t k = 1; k < way.size(); ++k) {
+    const double edge = cv::norm(way[k] - way[k - 1]);
+    if (place < edge) return way[k - 1] + (place / edge) * (way[k] - way[k - 1]);
+    place -= edge;
+  }
+  return way.back() + place * directionOf(way[way.size() - 1 - steps], way.back());
+}
+
+void layAlong(const std::vector<cv::Point2d>& way, double start, const std::vector<double>& lengths,
               bool backwards, ChainState& line) {
-  Walk walk(way);
   const size_t edges = lengths.size();
   for (size_t k = 0; k <= edges; ++k) {
     PartState& part = line.parts[backwards ? edges - k : k];
-    part.position = walk.place();
+    part.position = pointAlong(way, start);
     part.visible = true;
-    if (k < edges) walk.go(lengths[backwards ? edges - 1 - k : k]);
+    if (k < edges) start += lengths[backwards ? edges - 1 - k : k];
   }
 }
 

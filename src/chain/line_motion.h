@@ -10,10 +10,6 @@
 
 namespace chain_tracker {
 
-/// Number of hidden parts at the end of the line that has more of them: positive at its first part,
-/// negative at its last one; 0 if neither end is hidden, or all of it is.
-int hiddenEnd(const ChainState& line);
-
 /// Every part goes to where the one `places` behind it is, or before it if `places` is negative;
 /// those beyond the end go straight on, in steps of the last ones there, and count as visible.
 /// `places`: of a smaller magnitude than there are parts, of which there are at least 2.
@@ -26,10 +22,14 @@ void takeSeenStretch(const ChainState& line, std::vector<cv::Point2d>& stretch);
 /// Of a polyline [px].
 double lengthOf(const std::vector<cv::Point2d>& polyline);
 
-/// Lays all parts along `way`, a polyline of at least two points, from its beginning on, at
-/// `lengths` [px] from one another, one less than there are parts, and straight on beyond its end:
-/// the first part and its `lengths` first, or the last ones if `backwards`. All count as visible.
-void layAlong(const std::vector<cv::Point2d>& way, const std::vector<double>& lengths,
+/// `place` [px] along `way`, a polyline of at least two points; straight on beyond either end.
+/// O(points).
+cv::Point2d pointAlong(const std::vector<cv::Point2d>& way, double place);
+
+/// Lays all parts along `way`, as pointAlong(), at `lengths` [px] from one another, one less than
+/// there are parts: the first part at `start` and its `lengths` first, or the last ones if
+/// `backwards`. All count as visible. O(parts x points).
+void layAlong(const std::vector<cv::Point2d>& way, double start, const std::vector<double>& lengths,
               bool backwards, ChainState& line);
 
 /// Whether its parts are nearer to those of `before` the other way round.

@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "robust_costs.h"
 #include "state_motion.h"
 
 namespace chain_tracker {
@@ -48,21 +47,15 @@ double reachOf(const std::vector<RigidSegment>& segments) {
   return reach;
 }
 
-/// Where the centres of windows may be.
-struct Cells {
-  cv::Point2d first;  ///< centre of cell (0, 0) [px]
-  int step = 1;       ///< [px]
-  cv::Size size;
+/// Where the segments are looked for.
+struct Region {
+  CellMap cells;
   cv::Rect middles;  ///< where the middle of a segment may be, so that all of it is on the map
-
-  cv::Point cellOf(const cv::Point2d& position) const { return (position - first) / step; }
-  cv::Point2d centerOf(const cv::Point& cell) const { return first + cv::Point2d(cell) * step; }
-  bool contain(const cv::Point& cell) const { return cv::Rect(cv::Point(), size).contains(cell); }
 };
 
 /// All that the segments cover if one of them is within `radius` of where they were.
-Cells cellsAround(const std::vector<RigidSegment>& segments, double radius,
-                  const cv::Rect2d& image) {
+Region regionAround(const std::vector<RigidSegment>& segments, double radius,
+                    const cv::Rect2d& image) {
   std::vector<cv::Point2d> middles;
   double smallest = kInfinity;
   for (const RigidSegment& segment : segments) {
@@ -74,16 +67,17 @@ Cells cellsAround(const std::vector<RigidSegment>& segments, double radius,
   const double reach = reachOf(segments);
   const cv::Rect2d bounds = uprightBounds(middles);
   const cv::Point2d corner(radius, radius);
-  const cv::Rect2d region = cv::Rect2d(bounds.tl() - corner, bounds.br() + corner) & image;
-  const double span = std::max(region.width, region.height) + 2.0 * reach;
-  Cells cells;
+  const cv::Rect2d within = cv::Rect2d(bounds.tl() - corner, bounds.br() + corner) & image;
+  const double span = std::max(within.width, within.height) + 2.0 * reach;
+  Region region;
+  CellMap& cells = region.cells;
   cells.step = std::max(1, cvRound(std::max(smallest / kCellsPerWindow, span / kMostCells)));
   const int margin = cvCeil(reach / cells.step) + 1;
-  cells.middles = {margin, margin, cvFloor(region.width / cells.step) + 1,
-                   cvFloor(region.height / cells.step) + 1};
-  cells.first = region.tl() - cv::Point2d(margin, margin) * cells.step;
-  cells.size = cells.middles.size() + cv::Size(2 * margin, 2 * margin);
-  return cells;
+  region.middles = {margin, margin, cvFloor(within.width / cells.step) + 1,
+                    cvFloor(within.height / cells.step) + 1};
+  cells.first = within.tl() - cv::Point2d(margin, margin) * cells.step;
+  cells.size = region.middles.size() + cv::Size(2 * margin, 2 * margin);
+  return region;
 }
 
 int turnsFor(const std::vector<RigidSegment>& segments, int step) {
@@ -91,38 +85,15 @@ int turnsFor(const std::vector<RigidSegment>& segments, int step) {
   return cvCeil(std::clamp(way / kCellsPerTurn, kFewestTurns, kMostTurns));
 }
 
-/// Of the segment's voters.
-std::vector<cv::Mat1f> costsOf(const RigidSegment& segment, const Cells& cells,
-                               const AppearanceModel& model, FramePixels& pixels,
-                               PartCostsWorkspace& workspace) {
-  const std::vector<Voter>& voters = segment.voters;
-  CandidateGrid grid;
-  grid.lattice.step = cells.step;
-  grid.lattice.window_cells = std::max(1, cvRound(segment.side / cells.step));
-  const double half = 0.5 * (grid.lattice.window_cells * cells.step - 1);
-  grid.lattice.origin = cells.first - cv::Point2d(half, half);
-  grid.lattice.size = grid.states = cells.size;
-  grid.corners.resize(voters.size());
-  std::vector<RootHistogram> colors;
-  colors.reserve(voters.size());
-  for (const Voter& voter : voters) colors.push_back(voter.colors);
-  std::vector<cv::Mat1f> costs;
-  computePartCosts(pixels, Channel::kColors, colors, grid, model.weight, costs, workspace);
-  for (size_t k = 0; k < voters.size(); ++k) {
-    costs[k] *= voters[k].known;
-    softenCosts(voters[k].outlier_cost, model.outlier_slope, costs[k]);
-  }
-  return costs;
-}
-
 /// Segments placed one after the other, from one that is placed freely outwards.
 class ChainPlacement {
  public:
   ChainPlacement(const std::vector<RigidSegment>& segments, const std::vector<Hinge>& hinges,
-                 const Cells& cells, const std::vector<std::vector<cv::Mat1f>>& costs, int turns)
+                 const Region& region, const std::vector<std::vector<cv::Mat1f>>& costs, int turns)
       : segments_(segments),
         hinges_(hinges),
-        cells_(cells),
+        cells_(region.cells),
+        middles_(region.middles),
         costs_(costs),
         turns_(turns),
         motions_(segments.size()) {}
@@ -156,17 +127,15 @@ class ChainPlacement {
     for (const Voter& voter : segments_[m].voters) {
       offsets.push_back((voter.position - middle) / cells_.step);
     }
-    const Placement best = cheapestPlacement(costs_[m], offsets, cells_.middles, turns_);
+    const Placement best = cheapestPlacement(costs_[m], offsets, middles_, turns_);
     motions_[m] = rigidMotion(angleOf(best.turn), middle, cells_.centerOf(best.middle));
   }
 
-  /// A voter off the map is hidden.
   double costOf(size_t m, const Similarity& motion) const {
+    const std::vector<Voter>& voters = segments_[m].voters;
     double cost = 0.0;
-    for (size_t k = 0; k < segments_[m].voters.size(); ++k) {
-      const Voter& voter = segments_[m].voters[k];
-      const cv::Point cell = cells_.cellOf(motion.apply(voter.position));
-      cost += cells_.contain(cell) ? costs_[m][k](cell) : voter.outlier_cost;
+    for (size_t k = 0; k < voters.size(); ++k) {
+      cost += costAt(motion.apply(voters[k].position), k, voters, cells_, costs_[m]);
     }
     return cost;
   }
@@ -201,7 +170,8 @@ class ChainPlacement {
 
   const std::vector<RigidSegment>& segments_;
   const std::vector<Hinge>& hinges_;
-  const Cells& cells_;
+  const CellMap& cells_;
+  const cv::Rect& middles_;
   const std::vector<std::vector<cv::Mat1f>>& costs_;
   int turns_;
   std::vector<Similarity> motions_;
@@ -213,7 +183,6 @@ Placement cheapestPlacement(const std::vector<cv::Mat1f>& costs,
                             const std::vector<cv::Point2d>& offsets, const cv::Rect& middles,
                             int turns) {
   Placement best;
-  double least = kInfinity;
   cv::Mat1f sums(middles.size());
   for (int turn = 0; turn < turns; ++turn) {
     const Similarity rotation{2.0 * CV_PI * turn / turns, 1.0, {}};
@@ -225,9 +194,7 @@ Placement cheapestPlacement(const std::vector<cv::Mat1f>& costs,
     double cost = 0.0;
     cv::Point cheapest;
     cv::minMaxLoc(sums, &cost, nullptr, &cheapest);
-    if (cost >= least) continue;
-    least = cost;
-    best = {turn, middles.tl() + cheapest};
+    if (cost < best.cost) best = {turn, middles.tl() + cheapest, cost};
   }
   return best;
 }
@@ -235,13 +202,14 @@ Placement cheapestPlacement(const std::vector<cv::Mat1f>& costs,
 std::vector<Similarity> PlacementSearch::find(const std::vector<RigidSegment>& segments,
                                               const std::vector<Hinge>& hinges, double radius,
                                               FramePixels& pixels) {
-  const Cells cells = cellsAround(segments, radius, image_);
+  const Region region = regionAround(segments, radius, image_);
   std::vector<std::vector<cv::Mat1f>> costs;
   costs.reserve(segments.size());
   for (const RigidSegment& segment : segments) {
-    costs.push_back(costsOf(segment, cells, model_, pixels, workspace_));
+    costs.push_back(
+        voterCosts(segment.voters, segment.side, region.cells, model_, pixels, workspace_));
   }
-  ChainPlacement placement(segments, hinges, cells, costs, turnsFor(segments, cells.step));
+  ChainPlacement placement(segments, hinges, region, costs, turnsFor(segments, region.cells.step));
   std::vector<Similarity> best;
   double least = kInfinity;
   for (size_t anchor = 0; anchor < segments.size(); ++anchor) {
@@ -260,12 +228,14 @@ std::vector<Similarity> PlacementSearch::hang(const std::vector<RigidSegment>& s
   for (size_t m = 0; m < segments.size(); ++m) {
     if (!seen[m]) swing += 2.0 * reachOf({segments[m]}) + segments[m].side;
   }
-  const Cells cells = cellsAround(segments, swing, image_);
+  const Region region = regionAround(segments, swing, image_);
   std::vector<std::vector<cv::Mat1f>> costs(segments.size());
   for (size_t m = 0; m < segments.size(); ++m) {
-    if (!seen[m]) costs[m] = costsOf(segments[m], cells, model_, pixels, workspace_);
+    if (seen[m]) continue;
+    costs[m] =
+        voterCosts(segments[m].voters, segments[m].side, region.cells, model_, pixels, workspace_);
   }
-  ChainPlacement placement(segments, hinges, cells, costs, kFineTurns);
+  ChainPlacement placement(segments, hinges, region, costs, kFineTurns);
   placement.hangUnseen(seen);
   return placement.motions();
 }

@@ -6,6 +6,7 @@
 /// is to follow around the place found, where the object has bent and rescaled meanwhile.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -14,16 +15,9 @@
 #include "chain_tracker/chain/part_costs.h"
 #include "chain_tracker/chain/pose_grid.h"
 #include "chain_tracker/image/pixel_geometry.h"
+#include "voter_costs.h"
 
 namespace chain_tracker {
-
-/// A part that is asked.
-struct Voter {
-  cv::Point2d position;       ///< where the object was [px]
-  RootHistogram colors;       ///< that it is to show
-  double outlier_cost = 0.0;  ///< from which on it shows something else
-  float known = 1.0F;         ///< share of the window that is known to show them
-};
 
 struct RigidSegment {
   std::vector<Voter> voters;  ///< at least one
@@ -42,6 +36,7 @@ struct Hinge {
 struct Placement {
   int turn = 0;
   cv::Point middle;
+  double cost = std::numeric_limits<double>::infinity();
 };
 
 /// The placement whose parts cost least, the first one of several: over all cells in `middles` and

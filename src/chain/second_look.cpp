@@ -24,6 +24,8 @@ constexpr int kFramesPerLook = 2;
 /// How much more likeness it takes to believe that it is there, or that a line is.
 constexpr double kClearlyBetter = 0.1;
 constexpr double kBetterLine = 0.05;
+/// The same of a line that was found elsewhere, and may lie on the object shifted along it.
+constexpr double kBetterAligned = 0.01;
 /// The same where all segments hang otherwise; where some do, their share of it, up to
 /// kClearlyBetter.
 constexpr double kBetterSegment = 0.3;
@@ -39,10 +41,6 @@ constexpr double kTrustedLine = 0.95;
 constexpr double kLoose = 3.0;
 constexpr int kRefits = 4;
 constexpr double kLeastGain = 0.01;
-/// What is hidden at the end of a line, it slides by in turn: all, half and a quarter of that, as
-/// something may cover a share of it.
-constexpr int kSlides = 3;
-constexpr int kFewestPlaces = 2;
 /// Around a line whose ends were moved: of the usual reach, of what it may bend between two frames,
 /// and how much more has to speak for it.
 constexpr double kEndReach = 0.15;
@@ -53,8 +51,6 @@ constexpr double kBetterEnds = 0.004;
 constexpr double kBeyond = 0.1;
 /// Of a line, from end to end, of its length in the first frame: an open one.
 constexpr double kOpen = 0.25;
-/// Share of the line that must stay where the line was seen.
-constexpr double kLeastOverlap = 0.25;
 /// Of the object's usual confidence: that of a segment which is where it was found.
 constexpr double kSeen = 0.5;
 
@@ -103,7 +99,7 @@ void SecondLook::lookElsewhere(const ChainState& before, FoundChain& found) {
   } else if (frames_doubted_ % kFramesPerLook == 0) {
     preferBetter(look(frames_doubted_ / kFramesPerLook, kWidestInDoubt), found);
   } else if (is_open_line_) {
-    tryAlongLine(found);
+    preferAligned(kBetterLine, found);
   } else {
     tryOtherBends(found);
   }
@@ -171,7 +167,11 @@ FoundChain SecondLook::look(int failures, double widest) {
   if (is_uniform_line_) {
     if (liesReversed(found.state, trusted_)) reverse(found.state);
   } else if (found.state.confidence >= model_.search.found_above) {
-    preferBetter(reversed(found), found);
+    if (is_open_line_) {
+      preferAligned(kBetterAligned, found);
+    } else {
+      preferBetter(halfTurned(found), found);
+    }
   }
   return found;
 }
@@ -186,14 +186,9 @@ FoundChain SecondLook::turned(int side, const ChainState& before) {
 }
 
 /// What is found of an object whose two ends look alike may be the wrong way round.
-FoundChain SecondLook::reversed(const FoundChain& found) {
+FoundChain SecondLook::halfTurned(const FoundChain& found) {
   ChainState sought = found.state;
-  if (is_open_line_) {
-    reverse(sought);
-    shape_.carry(sought);
-  } else {
-    turnWhole(CV_PI, sought);
-  }
+  turnWhole(CV_PI, sought);
   return find(sought, {searchRadius(), 0.0});
 }
 
@@ -249,19 +244,12 @@ void SecondLook::preferOtherEnds(FoundChain& found) {
   if (is_sure && gain > kBetterEnds) std::swap(found, other_);
 }
 
-/// It may lie shifted along itself, one end beyond that of the object, or the wrong way round.
-void SecondLook::tryAlongLine(FoundChain& found) {
-  const int hidden = hiddenEnd(found.state);
-  const int halvings = (frames_doubted_ / kFramesPerLook - 1) % kSlides;
-  const int places = std::max(kFewestPlaces, std::abs(hidden) >> halvings);
-  const auto most = (1.0 - kLeastOverlap) * static_cast<double>(found.state.parts.size());
-  if (std::abs(hidden) >= kFewestPlaces && places <= most) {
-    ChainState sought = found.state;
-    slide(hidden > 0 ? places : -places, sought);
-    shape_.carry(sought);
-    preferBetter(refitted(find(sought, {searchRadius(), 0.0, kLoose})), found);
-  }
-  if (!is_uniform_line_) preferBetter(reversed(found), found);
+/// The same line with its parts where along it they look most as learned.
+void SecondLook::preferAligned(double gain, FoundChain& found) {
+  ChainState sought = found.state;
+  if (!search_.alignLine(sought)) return;
+  shape_.carry(sought);
+  preferBetter(refitted(find(sought, {searchRadius(), 0.0, kLoose})), gain, found);
 }
 
 /// Segments that turned while they were hidden hang at angles that no hypothesis reaches; a few of

@@ -57,13 +57,13 @@ class SecondLook {
   void lookElsewhere(const ChainState& before, FoundChain& found);
   FoundChain look(int failures, double widest);
   FoundChain turned(int side, const ChainState& before);
-  FoundChain reversed(const FoundChain& found);
+  FoundChain halfTurned(const FoundChain& found);
   FoundChain refitted(FoundChain found);
   void tryEnds(FoundChain& found);
   void learnEnds(const FoundChain& found);
   void seekEnds();
   void preferOtherEnds(FoundChain& found);
-  void tryAlongLine(FoundChain& found);
+  void preferAligned(double gain, FoundChain& found);
   void tryOtherBends(FoundChain& found);
   void takeHeldSegments(const ChainState& found);
 

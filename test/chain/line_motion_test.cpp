@@ -26,16 +26,6 @@ ChainState lineOf(const std::string& seen) {
   return line;
 }
 
-TEST(HiddenEnd, isTheOneThatMoreIsHiddenOf) {
-  EXPECT_EQ(0, hiddenEnd(lineOf("vvvvv")));
-  EXPECT_EQ(0, hiddenEnd(lineOf("vhhvv")));
-  EXPECT_EQ(2, hiddenEnd(lineOf("hhvhv")));
-  EXPECT_EQ(2, hiddenEnd(lineOf("hhvvh")));
-  EXPECT_EQ(-3, hiddenEnd(lineOf("vvhhh")));
-  EXPECT_EQ(-2, hiddenEnd(lineOf("hvvhh")));
-  EXPECT_EQ(0, hiddenEnd(lineOf("hhhh")));
-}
-
 TEST(Slide, movesEveryPartToWhereAnotherWas) {
   ChainState line = lineOf("hhvvv");
   slide(2, line);
@@ -81,17 +71,32 @@ TEST(SeenStretch, isHardlyLongerWhereThePartsZigzag) {
   EXPECT_NEAR(200.0, lengthOf(stretch), 6.0);
 }
 
+TEST(PointAlong, goesStraightOnBeyondEitherEnd) {
+  const std::vector<cv::Point2d> way = {{0.0, 0.0}, {0.0, 20.0}, {15.0, 20.0}};
+  const auto expect = [&](double place, const cv::Point2d& expected) {
+    EXPECT_NEAR(0.0, cv::norm(pointAlong(way, place) - expected), 1e-9) << place;
+  };
+  expect(0.0, {0.0, 0.0});
+  expect(12.0, {0.0, 12.0});
+  expect(20.0, {0.0, 20.0});
+  expect(30.0, {10.0, 20.0});
+  // The way leads by (3, 4) to (15, 20) over its few steps.
+  expect(35.0, {15.0, 20.0});
+  expect(40.0, {18.0, 24.0});
+  expect(-10.0, {-6.0, -8.0});
+}
+
 TEST(LayAlong, goesStraightOnBeyondTheEnd) {
   const std::vector<cv::Point2d> way = {{0.0, 0.0}, {0.0, 20.0}, {0.0, 25.0}};
   ChainState line = lineOf("vhvh");
-  layAlong(way, {10.0, 5.0, 20.0}, false, line);
+  layAlong(way, 0.0, {10.0, 5.0, 20.0}, false, line);
   const std::vector<double> onwards = {0.0, 10.0, 15.0, 35.0};
   for (size_t k = 0; k < 4; ++k) {
     EXPECT_NEAR(0.0, cv::norm(line.parts[k].position - cv::Point2d(0.0, onwards[k])), 1e-9) << k;
     EXPECT_TRUE(line.parts[k].visible) << k;
   }
-  layAlong(way, {10.0, 5.0, 20.0}, true, line);
-  const std::vector<double> backwards = {35.0, 25.0, 20.0, 0.0};
+  layAlong(way, -2.0, {10.0, 5.0, 20.0}, true, line);
+  const std::vector<double> backwards = {33.0, 23.0, 18.0, -2.0};
   for (size_t k = 0; k < 4; ++k) {
     EXPECT_NEAR(0.0, cv::norm(line.parts[k].position - cv::Point2d(0.0, backwards[k])), 1e-9) << k;
   }
