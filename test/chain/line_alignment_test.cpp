@@ -21,7 +21,7 @@ constexpr double kPartLength = kLength / double(kParts - 1);
 /// A winding line as wide as the image, on which an object lies [px].
 std::vector<cv::Point2d> winding() {
   std::vector<cv::Point2d> way;
-  for (double x = 10.0; x <= 490.0; x += 2.0) way.emplace_back(x, 100.0 + 30.0 * std::sin(x / 45));
+  for (int x = 10; x <= 490; x += 2) way.emplace_back(x, 100.0 + 30.0 * std::sin(x / 45.0));
   return way;
 }
 
@@ -39,8 +39,8 @@ cv::Mat drawn(double start, double scale) {
   const std::vector<cv::Point2d> way = winding();
   cv::Mat image = background();
   const double mark = scale * kLength / static_cast<double>(marks.size());
-  for (double place = 0.0; place < scale * kLength; place += 1.0) {
-    const size_t now = std::min(marks.size() - 1, static_cast<size_t>(place / mark));
+  for (int place = 0; place < scale * kLength; ++place) {
+    const auto now = std::min(marks.size() - 1, static_cast<size_t>(place / mark));
     cv::circle(image, pointAlong(way, start + place), cvRound(0.5 * kWidth * scale),
                colors[marks[now]], cv::FILLED);
   }
