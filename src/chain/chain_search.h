@@ -74,7 +74,7 @@ class ChainSearch {
   void findHung(const ChainState& sought, const std::vector<bool>& seen, const SearchRange& range,
                 FoundChain& found);
 
-  /// Lays a line, the only segment, as LineAlignment says. False if too little of it is seen.
+  /// Lays a line, the only segment, as LineAlignment says: false if that leaves it as it is.
   bool alignLine(ChainState& line);
 
  private:

@@ -25,6 +25,18 @@ constexpr double kLeastSeen = 0.25;
 /// there.
 constexpr double kBeyond = 0.25;
 constexpr double kMapBeyond = 0.5;
+/// Samples by which a part that is seen has to be moved: less the search around them does anyway.
+constexpr double kLeastMove = 2.0;
+
+/// The farthest that a part which is seen in `line` is from where `other` has it [px].
+double farthestSeen(const ChainState& line, const ChainState& other) {
+  double farthest = 0.0;
+  for (size_t k = 0; k < line.parts.size(); ++k) {
+    if (!line.parts[k].visible) continue;
+    farthest = std::max(farthest, cv::norm(line.parts[k].position - other.parts[k].position));
+  }
+  return farthest;
+}
 
 }  // namespace
 
@@ -42,11 +54,14 @@ bool LineAlignment::align(const std::vector<Voter>& voters, double side, bool is
   const Fit fit = bestFit(is_uniform);
   const bool is_reversed = fit.placement.turn > 0;
   for (double& length : lengths_) length *= fit.scale;
-  Similarity& pose = line.segments.front().image_from_segment;
+  const double start = placeOf(fit.placement.middle.x) - 0.5 * fit.scale * length_;
+  laid_ = line;
+  layAlong(stretch_, start, lengths_, is_reversed, laid_);
+  if (farthestSeen(line, laid_) < kLeastMove * spacing_) return false;
+  Similarity& pose = laid_.segments.front().image_from_segment;
   pose.scale *= fit.scale;
   if (is_reversed) pose.angle = wrapAngle(pose.angle + CV_PI);
-  const double start = placeOf(fit.placement.middle.x) - 0.5 * fit.scale * length_;
-  layAlong(stretch_, start, lengths_, is_reversed, line);
+  std::swap(line, laid_);
   return true;
 }
 

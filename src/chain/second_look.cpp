@@ -24,8 +24,6 @@ constexpr int kFramesPerLook = 2;
 /// How much more likeness it takes to believe that it is there, or that a line is.
 constexpr double kClearlyBetter = 0.1;
 constexpr double kBetterLine = 0.05;
-/// The same of a line that was found elsewhere, and may lie on the object shifted along it.
-constexpr double kBetterAligned = 0.01;
 /// The same where all segments hang otherwise; where some do, their share of it, up to
 /// kClearlyBetter.
 constexpr double kBetterSegment = 0.3;
@@ -99,7 +97,8 @@ void SecondLook::lookElsewhere(const ChainState& before, FoundChain& found) {
   } else if (frames_doubted_ % kFramesPerLook == 0) {
     preferBetter(look(frames_doubted_ / kFramesPerLook, kWidestInDoubt), found);
   } else if (is_open_line_) {
-    preferAligned(kBetterLine, found);
+    FoundChain aligned = found;
+    if (align(aligned)) preferBetter(refitted(std::move(aligned)), found);
   } else {
     tryOtherBends(found);
   }
@@ -163,16 +162,13 @@ FoundChain SecondLook::look(int failures, double widest) {
   } else {
     found = find(trusted_, {farthest, 0.0});
   }
-  if (is_line_) found = refitted(std::move(found));
-  if (is_uniform_line_) {
-    if (liesReversed(found.state, trusted_)) reverse(found.state);
-  } else if (found.state.confidence >= model_.search.found_above) {
-    if (is_open_line_) {
-      preferAligned(kBetterAligned, found);
-    } else {
-      preferBetter(halfTurned(found), found);
-    }
+  const bool is_believed = found.state.confidence >= model_.search.found_above;
+  if (is_line_) {
+    if (is_open_line_ && is_believed) align(found);
+    found = refitted(std::move(found));
+    if (is_uniform_line_ && liesReversed(found.state, trusted_)) reverse(found.state);
   }
+  if (!is_open_line_ && is_believed) preferBetter(halfTurned(found), found);
   return found;
 }
 
@@ -244,12 +240,15 @@ void SecondLook::preferOtherEnds(FoundChain& found) {
   if (is_sure && gain > kBetterEnds) std::swap(found, other_);
 }
 
-/// The same line with its parts where along it they look most as learned.
-void SecondLook::preferAligned(double gain, FoundChain& found) {
-  ChainState sought = found.state;
-  if (!search_.alignLine(sought)) return;
-  shape_.carry(sought);
-  preferBetter(refitted(find(sought, {searchRadius(), 0.0, kLoose})), gain, found);
+/// Moves a line along itself to where its parts look more as learned; false if nowhere.
+bool SecondLook::align(FoundChain& found) {
+  sought_ = found.state;
+  if (!search_.alignLine(sought_)) return false;
+  shape_.carry(sought_);
+  FoundChain aligned = find(sought_, {searchRadius(), 0.0, kLoose});
+  if (aligned.likeness <= found.likeness) return false;
+  found = std::move(aligned);
+  return true;
 }
 
 /// Segments that turned while they were hidden hang at angles that no hypothesis reaches; a few of

@@ -63,7 +63,7 @@ class SecondLook {
   void learnEnds(const FoundChain& found);
   void seekEnds();
   void preferOtherEnds(FoundChain& found);
-  void preferAligned(double gain, FoundChain& found);
+  bool align(FoundChain& found);
   void tryOtherBends(FoundChain& found);
   void takeHeldSegments(const ChainState& found);
 
