@@ -83,7 +83,7 @@ class SecondLook {
   LineEnds ends_;
   bool knows_ends_ = false;
   bool tells_length_ = true;  ///< by its ends
-  // Of the line whose ends are tried.
+  // Of the line that is tried elsewhere along itself.
   ChainState sought_;
   FoundChain other_;
   std::vector<bool> is_held_;  ///< of the segments: where they were found

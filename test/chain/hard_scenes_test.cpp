@@ -100,7 +100,7 @@ std::vector<Case> cases() {
           {"occluded_robot_arm", "robot_arm", occluded, 0.88, 6},
           {"occluded_guitar_string", "guitar_string", occluded, 0.85, 4},
           {"occluded_cable", "cable", occluded, 0.85, 4},
-          {"occluded_suture", "suture", occluded, 0.65, 4},
+          {"occluded_suture", "suture", occluded, 0.77, 4},
           {"occluded_lips", "lips", occluded, 0.6, 4},
           {"spinning_bottle", "bottle", spinning, 0.9},
           {"spinning_box", "box", spinning, 0.95},
