@@ -25,6 +25,10 @@ constexpr double kLeastSeen = 0.25;
 /// there.
 constexpr double kBeyond = 0.25;
 constexpr double kMapBeyond = 0.5;
+/// Calls after which all begins anew: in half of them a line may not become shorter. What goes on
+/// beyond the stretch that is seen bends, so that a longer line costs more until it has bent, too.
+/// Two calls each, as looks elsewhere and those along the line take turns.
+constexpr int kTurns = 4;
 /// Samples by which a part that is seen has to be moved: less the search around them does anyway.
 constexpr double kLeastMove = 2.0;
 
@@ -117,8 +121,9 @@ Placement LineAlignment::cheapestAt(double scale, int directions) {
 
 LineAlignment::Fit LineAlignment::bestFit(bool is_uniform) {
   const int steps = is_uniform ? 0 : cvRound(kMostGrowth / kScaleStep);
+  turn_ = (turn_ + 1) % kTurns;
   Fit best;
-  for (int i = -steps; i <= steps; ++i) {
+  for (int i = turn_ < kTurns / 2 ? 0 : -steps; i <= steps; ++i) {
     const double scale = std::exp(i * kScaleStep);
     const Placement placement = cheapestAt(scale, is_uniform ? 1 : 2);
     if (placement.cost < best.placement.cost) best = {scale, placement};

@@ -25,11 +25,12 @@ class LineAlignment {
 
   /// Lays `line` along the stretch of it that is seen, and straight on beyond that, from the place,
   /// at the scale and in the direction in which its parts cost least by colours: the best of all
-  /// directions, scales some 2 % apart and places half a part apart (exhaustive). Nothing tells the
-  /// length and the direction of a line that `is_uniform`, looking the same all along: it is merely
-  /// shifted. False, with `line` as it was, if too little is seen to tell, or all that is seen lies
-  /// so already, to the distance between two parts. `voters`: all its parts, in order, with windows
-  /// of `side` [px]. O(parts x (cells of the map + scales x places)).
+  /// directions, scales some 2 % apart and places half a part apart (exhaustive); in half of the
+  /// calls, of those at which it does not become shorter. Nothing tells the length and the
+  /// direction of a line that `is_uniform`, looking the same all along: it is merely shifted.
+  /// False, with `line` as it was, if too little is seen to tell, or all that is seen lies so
+  /// already, to the distance between two parts. `voters`: all its parts, in order, with windows of
+  /// `side` [px]. O(parts x (cells of the map + scales x places)).
   bool align(const std::vector<Voter>& voters, double side, bool is_uniform, FramePixels& pixels,
              ChainState& line);
 
@@ -50,6 +51,7 @@ class LineAlignment {
   cv::Rect2d image_;
   std::vector<double> first_lengths_;  ///< of the edges at scale 1 [px]
   PartCostsWorkspace workspace_;
+  int turn_ = 0;
   // Of the line that is aligned [px].
   ChainState laid_;
   std::vector<double> lengths_;       ///< of the edges
