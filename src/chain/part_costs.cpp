@@ -6,6 +6,7 @@
 
 #include "chain_tracker/image/multiversion.h"
 #include "chain_tracker/image/pixel_geometry.h"
+#include "image/reused_plane.h"
 
 namespace chain_tracker {
 namespace {
@@ -13,23 +14,29 @@ namespace {
 /// A code that a part's own window has.
 struct LearnedCode {
   size_t code;
-  float learned;    ///< root of its share in the part's window over the side of the windows
-  const int* seen;  ///< its counts in the windows of a row of states
+  float learned;      ///< root of its share in the part's window over the side of the windows
+  const float* seen;  ///< roots of its counts in the windows of a row of states
 };
 
-/// costs[x] = weight * sqrt(1 - sum of learned * sqrt(seen[x]))
+/// costs[x] = weight * sqrt(1 - sum of learned * seen[x])
 CHAIN_TRACKER_MULTIVERSION
 void computeCostRow(const LearnedCode* codes, size_t count, float weight, float* __restrict costs,
                     int columns) {
   for (int x = 0; x < columns; ++x) costs[x] = 1.0F;
   for (size_t i = 0; i < count; ++i) {
-    const int* __restrict seen = codes[i].seen;
+    const float* __restrict seen = codes[i].seen;
     const float learned = codes[i].learned;
-    for (int x = 0; x < columns; ++x) costs[x] -= learned * std::sqrt(static_cast<float>(seen[x]));
+    for (int x = 0; x < columns; ++x) costs[x] -= learned * seen[x];
   }
   for (int x = 0; x < columns; ++x) {
     costs[x] = weight * std::sqrt(costs[x] > 0.0F ? costs[x] : 0.0F);
   }
+}
+
+/// roots[x] = sqrt(counts[x])
+CHAIN_TRACKER_MULTIVERSION
+void takeRoots(const int* __restrict counts, float* __restrict roots, int columns) {
+  for (int x = 0; x < columns; ++x) roots[x] = std::sqrt(static_cast<float>(counts[x]));
 }
 
 /// Codes of a part that fit on the stack.
@@ -42,18 +49,58 @@ void markCodes(const RootHistogram& part, std::vector<bool>& wanted) {
   }
 }
 
+/// Counts the wanted codes in the windows on a lattice.
+void countWanted(FramePixels& pixels, Channel channel, const WindowLattice& lattice,
+                 PartCostsWorkspace& workspace) {
+  computeWindowHistograms(pixels, channel, lattice, workspace.wanted, workspace.counts,
+                          workspace.histograms);
+  workspace.roots.resize(workspace.counts.size());
+  for (size_t code = 0; code < workspace.counts.size(); ++code) {
+    if (!workspace.wanted[code]) continue;
+    CodeRoots& roots = workspace.roots[code];
+    reuse(roots.roots, lattice.size);
+    roots.taken.assign(static_cast<size_t>(lattice.size.height), cv::Range(0, 0));
+  }
+}
+
+/// As many roots are taken at a time: a few more than are asked for take less time than a few.
+constexpr int kRun = 16;
+
+/// Roots of a row of counts from `wanted.start` on. Neighbouring parts have most windows in common,
+/// and a root takes longer than all else that is done with a count: it is taken once.
+const float* rootsOf(const cv::Mat1i& counts, int row, const cv::Range& wanted, CodeRoots& roots) {
+  const int* const from = counts[row];
+  float* const to = roots.roots[row];
+  cv::Range& taken = roots.taken[static_cast<size_t>(row)];
+  if (wanted.start > taken.end || wanted.end < taken.start) taken = {wanted.start, wanted.start};
+  if (wanted.start < taken.start) {
+    takeRoots(from + wanted.start, to + wanted.start, taken.start - wanted.start);
+    taken.start = wanted.start;
+  }
+  if (wanted.end > taken.end) {
+    const int runs = (wanted.end - taken.end + kRun - 1) / kRun;
+    const int columns = std::min(runs * kRun, counts.cols - taken.end);
+    takeRoots(from + taken.end, to + taken.end, columns);
+    taken.end += columns;
+  }
+  return to + wanted.start;
+}
+
 /// `side`: of the windows [px].
-void computePartCost(const std::vector<cv::Mat1i>& counts, const RootHistogram& part,
-                     const cv::Point& corner, int side, float weight, cv::Mat1f& cost) {
+void computePartCost(const RootHistogram& part, const cv::Point& corner, int side, float weight,
+                     PartCostsWorkspace& workspace, cv::Mat1f& cost) {
   cv::AutoBuffer<LearnedCode, kFewCodes> codes(part.size());
   size_t count = 0;
   for (size_t code = 0; code < part.size(); ++code) {
     if (part[code] == 0.0F) continue;
     codes[count++] = {code, part[code] / static_cast<float>(side), nullptr};
   }
+  const cv::Range columns(corner.x, corner.x + cost.cols);
   for (int row = 0; row < cost.rows; ++row) {
     for (size_t i = 0; i < count; ++i) {
-      codes[i].seen = counts[codes[i].code][corner.y + row] + corner.x;
+      const size_t code = codes[i].code;
+      codes[i].seen =
+          rootsOf(workspace.counts[code], corner.y + row, columns, workspace.roots[code]);
     }
     computeCostRow(codes.data(), count, weight, cost[row], cost.cols);
   }
@@ -107,20 +154,18 @@ void computePartCosts(FramePixels& pixels, Channel channel, const std::vector<Ro
   const int side = grid.lattice.window_cells * grid.lattice.step;
   if (!is_sparse) {
     for (const RootHistogram& part : parts) markCodes(part, wanted);
-    computeWindowHistograms(pixels, channel, grid.lattice, wanted, workspace.counts,
-                            workspace.histograms);
+    countWanted(pixels, channel, grid.lattice, workspace);
   }
   costs.resize(parts.size());
   for (size_t k = 0; k < parts.size(); ++k) {
     if (is_sparse) {
       wanted.assign(wanted.size(), false);
       markCodes(parts[k], wanted);
-      computeWindowHistograms(pixels, channel, grid.latticeOf(k), wanted, workspace.counts,
-                              workspace.histograms);
+      countWanted(pixels, channel, grid.latticeOf(k), workspace);
     }
     const cv::Point corner = is_sparse ? cv::Point(0, 0) : grid.corners[k];
     costs[k].create(grid.states);
-    computePartCost(workspace.counts, parts[k], corner, side, static_cast<float>(weight), costs[k]);
+    computePartCost(parts[k], corner, side, static_cast<float>(weight), workspace, costs[k]);
   }
 }
 

@@ -127,6 +127,7 @@ TEST_P(PartCostsOfChannel, equalTheBhattacharyyaDistanceOfCountedPixels) {
       const CandidateGrid grid = gridAround(centers, side, step, 7.0);
       SCOPED_TRACE(textOf(grid));
       std::vector<RootHistogram> parts;
+      parts.reserve(centers.size());
       for (const cv::Point2d& center : centers) {
         parts.push_back(learnPart(pixels, GetParam(), center, side));
       }
@@ -212,6 +213,35 @@ TEST(ComputePartCosts, workspaceOfAnotherGridLeavesNoTrace) {
     ASSERT_EQ(fresh.size(), reused.size());
     for (size_t k = 0; k < fresh.size(); ++k) {
       EXPECT_EQ("", firstDifference(fresh[k], reused[k])) << "part " << k;
+    }
+  }
+}
+
+TEST(ComputePartCosts, partsThatShareWindowsCostAsMuchAsAlone) {
+  RandomInputs random(9);
+  const cv::Mat image = texture(random, {90, 60}, CV_8UC3);
+  const ColorPalette palette = somePalette(image);
+  FramePixels pixels(palette, image);
+  PartCostsWorkspace workspace;
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    const std::vector<cv::Point2d> centers = random.points(8, 20.0, 50.0);
+    const CandidateGrid grid =
+        gridAround(centers, 12.0, random.integer(1, 3), random.real(2.0, 20.0));
+    SCOPED_TRACE(textOf(grid));
+    std::vector<RootHistogram> parts;
+    parts.reserve(centers.size());
+    for (const cv::Point2d& center : centers) {
+      parts.push_back(learnPart(pixels, Channel::kColors, center, 12.0));
+    }
+    std::vector<cv::Mat1f> together;
+    computePartCosts(pixels, Channel::kColors, parts, grid, 2.0, together, workspace);
+    for (size_t k = 0; k < parts.size(); ++k) {
+      CandidateGrid own = grid;
+      own.corners = {grid.corners[k]};
+      std::vector<cv::Mat1f> alone;
+      PartCostsWorkspace fresh;
+      computePartCosts(pixels, Channel::kColors, {parts[k]}, own, 2.0, alone, fresh);
+      EXPECT_EQ("", firstDifference(alone[0], together[k])) << "part " << k;
     }
   }
 }

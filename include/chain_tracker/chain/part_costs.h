@@ -48,10 +48,17 @@ struct CandidateGrid {
 void placeCandidateGrid(const std::vector<cv::Point2d>& centers, double side, int step,
                         double radius, CandidateGrid& grid);
 
+/// Roots of the counts of a code in the windows of a lattice, as far as they were asked for.
+struct CodeRoots {
+  cv::Mat1f roots;
+  std::vector<cv::Range> taken;  ///< of each row
+};
+
 /// Kept from call to call so that no memory is allocated once sizes have settled.
 struct PartCostsWorkspace {
-  std::vector<bool> wanted;  ///< of the codes
-  std::vector<cv::Mat1i> counts;
+  std::vector<bool> wanted;       ///< of the codes
+  std::vector<cv::Mat1i> counts;  ///< of the codes
+  std::vector<CodeRoots> roots;   ///< of the codes
   WindowHistogramsWorkspace histograms;
 };
 
