@@ -18,16 +18,34 @@ struct LearnedCode {
   const float* seen;  ///< roots of its counts in the windows of a row of states
 };
 
+/// costs[x] -= learned * seen[x]
+inline void subtract(float learned, const float* __restrict seen, float* __restrict costs,
+                     int columns) {
+  for (int x = 0; x < columns; ++x) costs[x] -= learned * seen[x];
+}
+
+/// The same for three codes: the costs are loaded and stored once.
+inline void subtract3(const LearnedCode* codes, const float* __restrict seen0,
+                      const float* __restrict seen1, const float* __restrict seen2,
+                      float* __restrict costs, int columns) {
+  const float learned0 = codes[0].learned;
+  const float learned1 = codes[1].learned;
+  const float learned2 = codes[2].learned;
+  for (int x = 0; x < columns; ++x) {
+    costs[x] = costs[x] - learned0 * seen0[x] - learned1 * seen1[x] - learned2 * seen2[x];
+  }
+}
+
 /// costs[x] = weight * sqrt(1 - sum of learned * seen[x])
 CHAIN_TRACKER_MULTIVERSION
 void computeCostRow(const LearnedCode* codes, size_t count, float weight, float* __restrict costs,
                     int columns) {
   for (int x = 0; x < columns; ++x) costs[x] = 1.0F;
-  for (size_t i = 0; i < count; ++i) {
-    const float* __restrict seen = codes[i].seen;
-    const float learned = codes[i].learned;
-    for (int x = 0; x < columns; ++x) costs[x] -= learned * seen[x];
+  size_t i = 0;
+  for (; i + 2 < count; i += 3) {
+    subtract3(codes + i, codes[i].seen, codes[i + 1].seen, codes[i + 2].seen, costs, columns);
   }
+  for (; i < count; ++i) subtract(codes[i].learned, codes[i].seen, costs, columns);
   for (int x = 0; x < columns; ++x) {
     costs[x] = weight * std::sqrt(costs[x] > 0.0F ? costs[x] : 0.0F);
   }
