@@ -67,7 +67,7 @@ void markCodes(const RootHistogram& part, std::vector<bool>& wanted) {
   }
 }
 
-/// Counts the wanted codes in the windows on a lattice.
+/// Counts the wanted codes in the windows on a lattice; no roots are taken of these yet.
 void countWanted(FramePixels& pixels, Channel channel, const WindowLattice& lattice,
                  PartCostsWorkspace& workspace) {
   computeWindowHistograms(pixels, channel, lattice, workspace.wanted, workspace.counts,
@@ -76,7 +76,7 @@ void countWanted(FramePixels& pixels, Channel channel, const WindowLattice& latt
   for (size_t code = 0; code < workspace.counts.size(); ++code) {
     if (!workspace.wanted[code]) continue;
     CodeRoots& roots = workspace.roots[code];
-    reuse(roots.roots, lattice.size);
+    reuse(roots.values, lattice.size);
     roots.taken.assign(static_cast<size_t>(lattice.size.height), cv::Range(0, 0));
   }
 }
@@ -88,7 +88,7 @@ constexpr int kRun = 16;
 /// and a root takes longer than all else that is done with a count: it is taken once.
 const float* rootsOf(const cv::Mat1i& counts, int row, const cv::Range& wanted, CodeRoots& roots) {
   const int* const from = counts[row];
-  float* const to = roots.roots[row];
+  float* const to = roots.values[row];
   cv::Range& taken = roots.taken[static_cast<size_t>(row)];
   if (wanted.start > taken.end || wanted.end < taken.start) taken = {wanted.start, wanted.start};
   if (wanted.start < taken.start) {

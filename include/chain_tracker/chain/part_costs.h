@@ -50,7 +50,7 @@ void placeCandidateGrid(const std::vector<cv::Point2d>& centers, double side, in
 
 /// Roots of the counts of a code in the windows of a lattice, as far as they were asked for.
 struct CodeRoots {
-  cv::Mat1f roots;
+  cv::Mat1f values;
   std::vector<cv::Range> taken;  ///< of each row
 };
 
