@@ -43,6 +43,11 @@ constexpr size_t kFewestVoters = 4;
 /// Of the usual likeness: from which on a chain tells how the light has changed. It is lower than
 /// what is trusted otherwise, as in another light all looks less as learned.
 constexpr double kTellsLight = 0.6;
+/// Of the usual confidence: from which on a link shows its size. If one does not, none rescales by
+/// more than so much of what it may, unless all are seen at least so well and grow.
+constexpr double kShowsSize = 0.8;
+constexpr double kUnsureScaling = 0.25;
+constexpr double kShowsGrowth = 0.6;
 /// Of lengthEvidence(): from which on the two ends of a line can be told from one another.
 constexpr double kTellsPlace = 0.5;
 
@@ -367,6 +372,12 @@ double ChainSearch::likeness(const std::vector<RefinedPart>& refined,
   return expectations_.likeness(costs_, shares_);
 }
 
+bool ChainSearch::areSegmentsSeen(double share, const ChainState& found) const {
+  const double least = share * expectations_.usualConfidence();
+  return std::all_of(found.segments.begin(), found.segments.end(),
+                     [=](const SegmentState& segment) { return segment.confidence >= least; });
+}
+
 /// The parts were found under `poses_`.
 void ChainSearch::fillIn(const std::vector<RefinedPart>& parts, ChainState& found) {
   for (size_t k = 0; k < parts.size(); ++k) {
@@ -380,11 +391,40 @@ void ChainSearch::fillIn(const std::vector<RefinedPart>& parts, ChainState& foun
   found.confidence = expectations_.meanConfidence(found.parts, 0, parts.size());
   for (size_t m = 0; m < segments(); ++m) {
     SegmentState& segment = found.segments[m];
-    segment.image_from_segment = fitSegment(layout_[m], finePoses(model_.segments[m], poses_[m]),
-                                            {found, segment}, length_rates_[m], fit_workspace_);
     segment.confidence = expectations_.meanConfidence(
         found.parts, static_cast<size_t>(segment.first_part), layout_[m].parts.size());
   }
+  fitSegments(1.0, found);
+  const bool is_chain = segments() > 1;
+  if (is_chain && !areSegmentsSeen(kShowsSize, found)) doubtSizes(found);
+}
+
+/// A link that is hidden seems as long as whatever it is found on, and pulls its neighbours along:
+/// some shrink then. All grow where the object comes nearer faster than the fits have followed.
+void ChainSearch::doubtSizes(ChainState& found) {
+  const bool may_grow = areSegmentsSeen(kShowsGrowth, found);
+  fitSegments(std::max(kUnsureScaling, may_grow ? leastGrowth(found) : 0.0), found);
+}
+
+/// To the parts found, from `poses_` on. `scaling`: of how much a link may rescale.
+void ChainSearch::fitSegments(double scaling, ChainState& found) {
+  for (size_t m = 0; m < segments(); ++m) {
+    SegmentState& segment = found.segments[m];
+    PoseGrid poses = finePoses(model_.segments[m], poses_[m]);
+    if (poses.scales == 1) poses.scale_step *= scaling;
+    segment.image_from_segment =
+        fitSegment(layout_[m], poses, {found, segment}, length_rates_[m], fit_workspace_);
+  }
+}
+
+/// Of all links, of how much they may; negative if one shrinks.
+double ChainSearch::leastGrowth(const ChainState& found) const {
+  double least = 1.0;
+  for (size_t m = 0; m < segments(); ++m) {
+    const double growth = std::log(found.segments[m].image_from_segment.scale / poses_[m].scale);
+    least = std::min(least, growth / (0.5 * model_.segments[m].scale_step));
+  }
+  return least;
 }
 
 }  // namespace chain_tracker

@@ -123,7 +123,11 @@ class ChainSearch {
   const ChainMatch& matchFinePoses();
   void settle(FoundChain& found);
   double likeness(const std::vector<RefinedPart>& refined, const std::vector<PartState>& parts);
+  bool areSegmentsSeen(double share, const ChainState& found) const;
   void fillIn(const std::vector<RefinedPart>& parts, ChainState& found);
+  void fitSegments(double scaling, ChainState& found);
+  void doubtSizes(ChainState& found);
+  double leastGrowth(const ChainState& found) const;
 
   ChainModel model_;
   std::vector<SegmentLayout> layout_;

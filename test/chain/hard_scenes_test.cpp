@@ -111,7 +111,8 @@ std::vector<Case> cases() {
           {"darting_bottle", "bottle", darting, 0.95},
           {"darting_robot_arm", "robot_arm", darting, 0.95},
           {"growing_bottle", "bottle", growing, 0.95},
-          {"growing_box", "box", growing, 0.95}};
+          {"growing_box", "box", growing, 0.95},
+          {"growing_finger_pair", "finger_pair", growing, 0.97, 4}};
 }
 
 class HardScene : public testing::TestWithParam<Case> {};
