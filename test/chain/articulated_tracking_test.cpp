@@ -4,6 +4,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "chain_tracker/chain/chain_layout.h"
 #include "chain_tracker/chain/chain_tracker.h"
@@ -163,6 +164,26 @@ TEST(ChainTracker, findsALinkThatTurnedWhileItWasHidden) {
   const std::vector<cv::Point2d> truth = DrawnArm::vertices(start, angles);
   for (size_t i = 0; i < truth.size(); ++i) {
     EXPECT_LT(cv::norm(tracker.state().points[i].position - truth[i]), 2.0) << "vertex " << i;
+  }
+}
+
+/// Two links of one colour, of which the second seems half as long when its end is hidden.
+TEST(ChainTracker, linksKeepTheirSizeWhileOneIsHidden) {
+  const std::vector<cv::Point2d> vertices = {{60, 120}, {150, 120}, {150, 210}};
+  cv::Mat3b image(260, 260, cv::Vec3b(60, 120, 40));
+  for (size_t i = 0; i < 2; ++i) {
+    cv::line(image, vertices[i], vertices[i + 1], cv::Scalar(40, 60, 200), 24);
+  }
+  ChainModel model = armModel(2);
+  for (SegmentModel& segment : model.segments) {
+    segment.scale_hypotheses = 1;
+    segment.scale_step = 0.02;
+  }
+  ChainTracker tracker(model, image, vertices);
+  image.rowRange(165, 260).setTo(cv::Vec3b(60, 120, 40));
+  for (int frame = 0; frame < 15; ++frame) tracker.update(image);
+  for (const SegmentState& segment : tracker.state().segments) {
+    EXPECT_NEAR(1.0, segment.image_from_segment.scale, 0.1) << segment.name;
   }
 }
 
