@@ -284,7 +284,7 @@ TEST(ShippedModels, articulatedHasALinkForEveryEdge) {
   segment.measure_aspect = true;
   segment.margin = 0.0;
   segment.scale_hypotheses = 1;
-  segment.scale_step = 0.01;
+  segment.scale_step = 0.02;
   expected.appearance.light_rate = 0.1;
   EXPECT_EQ("", differencesOf(expected, loadChainModel(kShippedModels + "/articulated.yaml")));
 }
