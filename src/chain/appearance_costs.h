@@ -42,6 +42,9 @@ class AppearanceCosts {
   AppearanceCosts(const AppearanceCosts&) = delete;
   AppearanceCosts& operator=(const AppearanceCosts&) = delete;
 
+  /// That share the work, at least 1.
+  void useThreads(int threads) { color_workspace_.threads = edge_workspace_.threads = threads; }
+
   ObjectAppearance& learned() { return learned_; }
   /// What a part looks like as it is turned in `state`, and then by `turn` [rad].
   const PartAppearance& lookOf(const ChainState& state, size_t part, double turn = 0.0);

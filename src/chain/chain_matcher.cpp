@@ -6,8 +6,13 @@
 #include <limits>
 #include <utility>
 
+#include "workers.h"
+
 namespace chain_tracker {
 namespace {
+
+/// A spring asks several states for each, which takes so much longer than workersFor() means.
+constexpr double kStepsPerState = 8.0;
 
 /// sum = map + cost
 void raise(const cv::Mat1f& map, float cost, cv::Mat1f& sum) {
@@ -38,7 +43,11 @@ class Matcher {
     for (PoseMaps* maps : {&workspace.ahead, &workspace.behind, &workspace.into, &workspace.from}) {
       maps->resize(segments());
     }
-    workspace.solvers.resize(segments());
+    workspace.passes.resize(static_cast<size_t>(workspace.threads));
+    for (PassWorkspace& pass : workspace.passes) {
+      pass.solvers.resize(segments());
+      pass.best_energy = std::numeric_limits<double>::infinity();
+    }
     workspace.match.segments.resize(segments());
     for (size_t m = 0; m < segments(); ++m) {
       workspace.ahead[m].resize(poses(m));
@@ -62,15 +71,23 @@ class Matcher {
 
  private:
   size_t segments() const { return problem_.segments.size(); }
-  ChainSolverWorkspace& solver(size_t m) { return workspace_.solvers[m]; }
   size_t poses(size_t m) const { return problem_.poses[m].size(); }
   SegmentPose pose(size_t m, size_t h) const { return problem_.poses[m].at(h); }
 
+  /// Calls pass(workspace, pose) for all poses of a segment, which have nothing to do with one
+  /// another.
+  template <typename Pass>
+  void forPoses(size_t m, const Pass& pass) {
+    const std::vector<cv::Mat1f>& costs = problem_.candidates[m].costs;
+    const double states = static_cast<double>(costs.size() * costs.front().total());
+    shareOut(workspace_.threads, poses(m), kStepsPerState * states,
+             [&](size_t h, size_t worker) { pass(workspace_.passes[worker], h); });
+  }
+
   /// Sampled anew in every pass: those of all poses together would leave the caches.
-  const ChainEdges& sampleEdges(size_t m, size_t h) {
-    workspace_.sampler.sample(problem_.segments[m], problem_.candidates[m], pose(m, h),
-                              workspace_.edges);
-    return workspace_.edges;
+  const ChainEdges& sampleEdges(size_t m, size_t h, PassWorkspace& pass) const {
+    pass.sampler.sample(problem_.segments[m], problem_.candidates[m], pose(m, h), pass.edges);
+    return pass.edges;
   }
 
   float temporal(size_t m, size_t h) const {
@@ -91,37 +108,46 @@ class Matcher {
   void sweepForward() {
     for (size_t m = 0; m < segments(); ++m) {
       if (m > 0) mergeForward(m);
-      for (size_t h = 0; h < poses(m); ++h) {
-        passForward(m, h);
-        raise(solver(m).forward.back(), temporal(m, h), workspace_.ahead[m][h]);
-        if (m + 1 == segments()) keepIfBest(h, leastOf(workspace_.ahead[m][h]));
-      }
+      forPoses(m, [&](PassWorkspace& pass, size_t h) {
+        passForward(m, h, pass);
+        raise(pass.solvers[m].forward.back(), temporal(m, h), workspace_.ahead[m][h]);
+        if (m + 1 == segments()) keepIfBest(h, leastOf(workspace_.ahead[m][h]), pass);
+      });
     }
   }
 
   /// Of the last segment's passes, so that tracing need not repeat it.
-  void keepIfBest(size_t pose, double energy) {
-    if (energy >= best_energy_) return;
-    best_pose_ = pose;
-    best_energy_ = energy;
-    std::swap(workspace_.edges, workspace_.best_edges);
-    std::swap(workspace_.solvers.back().forward, workspace_.best_forward);
+  static void keepIfBest(size_t pose, double energy, PassWorkspace& pass) {
+    if (energy >= pass.best_energy) return;
+    pass.best_pose = pose;
+    pass.best_energy = energy;
+    std::swap(pass.edges, pass.best_edges);
+    std::swap(pass.solvers.back().forward, pass.best_forward);
+  }
+
+  /// The one that has it; the first pose of several, as if one had passed under all.
+  PassWorkspace& bestPass() {
+    const auto is_better = [](const PassWorkspace& a, const PassWorkspace& b) {
+      return std::make_pair(a.best_energy, a.best_pose) <
+             std::make_pair(b.best_energy, b.best_pose);
+    };
+    return *std::min_element(workspace_.passes.begin(), workspace_.passes.end(), is_better);
   }
 
   /// The first node of the segment takes what the segments before say.
-  void passForward(size_t m, size_t h) {
-    workspace_.costs = problem_.candidates[m].costs;
-    if (m > 0) workspace_.costs.front() = messageTo(h, workspace_.into[m]);
-    forwardPass(workspace_.costs, sampleEdges(m, h), solver(m));
+  void passForward(size_t m, size_t h, PassWorkspace& pass) const {
+    pass.costs = problem_.candidates[m].costs;
+    if (m > 0) pass.costs.front() = messageTo(h, workspace_.into[m]);
+    forwardPass(pass.costs, sampleEdges(m, h, pass), pass.solvers[m]);
   }
 
   /// The same from the other end.
-  void passBackward(size_t m, size_t h) {
-    workspace_.costs = problem_.candidates[m].costs;
-    std::reverse(workspace_.costs.begin(), workspace_.costs.end());
-    if (m + 1 < segments()) workspace_.costs.front() = messageTo(h, workspace_.from[m]);
-    workspace_.backward_edges.assignReversed(sampleEdges(m, h));
-    forwardPass(workspace_.costs, workspace_.backward_edges, solver(m));
+  void passBackward(size_t m, size_t h, PassWorkspace& pass) const {
+    pass.costs = problem_.candidates[m].costs;
+    std::reverse(pass.costs.begin(), pass.costs.end());
+    if (m + 1 < segments()) pass.costs.front() = messageTo(h, workspace_.from[m]);
+    pass.backward_edges.assignReversed(sampleEdges(m, h, pass));
+    forwardPass(pass.costs, pass.backward_edges, pass.solvers[m]);
   }
 
   /// The message to each pose of segment m from the one before: the least over that one's poses.
@@ -160,10 +186,10 @@ class Matcher {
   /// behind[m][h]: least cost of segments m.. that begin in each state under pose h.
   void sweepBackward() {
     for (size_t m = segments() - 1; m > 0; --m) {
-      for (size_t h = 0; h < poses(m); ++h) {
-        passBackward(m, h);
-        raise(solver(m).forward.back(), temporal(m, h), workspace_.behind[m][h]);
-      }
+      forPoses(m, [&](PassWorkspace& pass, size_t h) {
+        passBackward(m, h, pass);
+        raise(pass.solvers[m].forward.back(), temporal(m, h), workspace_.behind[m][h]);
+      });
       mergeBackward(m - 1);
     }
   }
@@ -184,16 +210,18 @@ class Matcher {
   /// From the last segment to the first: the pose that leads to where the next one begins.
   void traceChain(ChainMatch& match) {
     const size_t last = segments() - 1;
-    match.segments[last].pose = best_pose_;
-    std::swap(solver(last).forward, workspace_.best_forward);
-    traceBack(workspace_.best_edges, cheapestState(solver(last).forward.back()), solver(last),
+    PassWorkspace& pass = bestPass();
+    ChainSolverWorkspace& solver = pass.solvers[last];
+    match.segments[last].pose = pass.best_pose;
+    std::swap(solver.forward, pass.best_forward);
+    traceBack(pass.best_edges, cheapestState(solver.forward.back()), solver,
               match.segments[last].states);
     for (size_t m = last; m-- > 0;) {
       SegmentMatch& segment = match.segments[m];
       const SegmentMatch& next = match.segments[m + 1];
       segment.pose = bestInto(m, next);
-      passForward(m, segment.pose);
-      traceBack(workspace_.edges, next.states.front(), solver(m), segment.states);
+      passForward(m, segment.pose, pass);
+      traceBack(pass.edges, next.states.front(), pass.solvers[m], segment.states);
     }
   }
 
@@ -212,8 +240,6 @@ class Matcher {
 
   const MatchingProblem& problem_;
   ChainMatcherWorkspace& workspace_;
-  size_t best_pose_ = 0;
-  double best_energy_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "length_evidence.h"
 #include "robust_costs.h"
 #include "state_motion.h"
+#include "workers.h"
 
 namespace chain_tracker {
 namespace {
@@ -133,6 +134,13 @@ void ChainSearch::observe(const FoundChain& found) {
   appearance_.keepLight();
   const bool tells_light = found.likeness >= kTellsLight * expectations_.usualLikeness();
   if (tells_light) appearance_.observeLight(found.state);
+}
+
+void ChainSearch::useThreads(int threads) {
+  threads_ = threads;
+  wide_.workspace.threads = narrow_.workspace.threads = pose_workspace_.threads = threads;
+  appearance_.useThreads(threads);
+  placement_search_.useThreads(threads);
 }
 
 void ChainSearch::find(const ChainState& sought, const SearchRange& range, FoundChain& found) {
@@ -325,7 +333,7 @@ void ChainSearch::robustify(Candidates& candidates) const {
   for (size_t m = 0; m < segments(); ++m) {
     const CandidateGrid& grid = candidates.grids[m];
     const size_t joint = layout_[m].entry ? 1 : 0;
-    for (size_t k = 0; k < layout_[m].parts.size(); ++k) {
+    const auto soften = [&](size_t k, size_t /*worker*/) {
       const size_t part = static_cast<size_t>(sought_.segments[m].first_part) + k;
       cv::Mat1f& costs = candidates.segments[m].costs[joint + k];
       softenCosts(expectations_.outlierCost(part, model.outlier_below), model.outlier_slope, costs);
@@ -333,7 +341,8 @@ void ChainSearch::robustify(Candidates& candidates) const {
         addTravelCosts(grid.positionOf(k, {0.0, 0.0}), grid.lattice.step,
                        sought_.parts[part].position, range_.travel_weight, costs);
       }
-    }
+    };
+    shareOut(threads_, layout_[m].parts.size(), grid.states.area(), soften);
   }
 }
 

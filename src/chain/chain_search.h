@@ -49,6 +49,9 @@ class ChainSearch {
   ChainSearch(const ChainSearch&) = delete;
   ChainSearch& operator=(const ChainSearch&) = delete;
 
+  /// That share the work from now on, at least 1: nothing but the time depends on it.
+  void useThreads(int threads);
+
   const PartExpectations& expectations() const { return expectations_; }
   /// Whether the parts of a line, the only segment, tell little of where on it they are.
   bool isUniform() const;
@@ -140,6 +143,7 @@ class ChainSearch {
   LineAlignment line_alignment_;      // of the first segment
   std::vector<double> length_rates_;  // of the segments, for fitSegment()
   bool is_clearly_marked_ = false;
+  int threads_ = 1;
   std::vector<double> variance_shares_;  // of the parts, in what the chain alone would leave
   // Of the search that goes on.
   ChainState sought_;

@@ -53,6 +53,11 @@ class ChainTracker::Implementation {
     return state_;
   }
 
+  void useThreads(int threads) {
+    requireThreads(threads);
+    search_.useThreads(threads);
+  }
+
   const ChainState& state() const { return state_; }
   const ChainModel& model() const { return model_; }
 
@@ -168,6 +173,7 @@ ChainTracker& ChainTracker::operator=(ChainTracker&&) noexcept = default;
 const ChainState& ChainTracker::update(const cv::Mat& image) {
   return implementation_->update(image);
 }
+void ChainTracker::useThreads(int threads) { implementation_->useThreads(threads); }
 const ChainState& ChainTracker::state() const { return implementation_->state(); }
 const ChainModel& ChainTracker::model() const { return implementation_->model(); }
 

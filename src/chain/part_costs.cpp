@@ -7,6 +7,7 @@
 #include "chain_tracker/image/multiversion.h"
 #include "chain_tracker/image/pixel_geometry.h"
 #include "image/reused_plane.h"
+#include "workers.h"
 
 namespace chain_tracker {
 namespace {
@@ -104,9 +105,18 @@ const float* rootsOf(const cv::Mat1i& counts, int row, const cv::Range& wanted, 
   return to + wanted.start;
 }
 
-/// `side`: of the windows [px].
+/// Rows of a lattice that are dealt to a worker.
+struct DealtRows {
+  int first = 0;  ///< in [0, every)
+  int every = 1;
+
+  /// The first of them that is no less than `row`.
+  int from(int row) const { return row + (first - row % every + every) % every; }
+};
+
+/// In the rows of the lattice that are dealt. `side`: of the windows [px].
 void computePartCost(const RootHistogram& part, const cv::Point& corner, int side, float weight,
-                     PartCostsWorkspace& workspace, cv::Mat1f& cost) {
+                     const DealtRows& dealt, PartCostsWorkspace& workspace, cv::Mat1f& cost) {
   cv::AutoBuffer<LearnedCode, kFewCodes> codes(part.size());
   size_t count = 0;
   for (size_t code = 0; code < part.size(); ++code) {
@@ -114,14 +124,22 @@ void computePartCost(const RootHistogram& part, const cv::Point& corner, int sid
     codes[count++] = {code, part[code] / static_cast<float>(side), nullptr};
   }
   const cv::Range columns(corner.x, corner.x + cost.cols);
-  for (int row = 0; row < cost.rows; ++row) {
+  for (int row = dealt.from(corner.y); row < corner.y + cost.rows; row += dealt.every) {
     for (size_t i = 0; i < count; ++i) {
       const size_t code = codes[i].code;
-      codes[i].seen =
-          rootsOf(workspace.counts[code], corner.y + row, columns, workspace.roots[code]);
+      codes[i].seen = rootsOf(workspace.counts[code], row, columns, workspace.roots[code]);
     }
-    computeCostRow(codes.data(), count, weight, cost[row], cost.cols);
+    computeCostRow(codes.data(), count, weight, cost[row - corner.y], cost.cols);
   }
+}
+
+/// A worker takes the roots of its rows, which no other one needs.
+template <typename Work>
+void onDealtRows(int threads, double steps, const Work& work) {
+  const size_t workers = workersFor(threads, steps);
+  onWorkers(workers, [&](size_t worker) {
+    work(DealtRows{static_cast<int>(worker), static_cast<int>(workers)});
+  });
 }
 
 }  // namespace
@@ -175,15 +193,24 @@ void computePartCosts(FramePixels& pixels, Channel channel, const std::vector<Ro
     countWanted(pixels, channel, grid.lattice, workspace);
   }
   costs.resize(parts.size());
+  for (cv::Mat1f& cost : costs) cost.create(grid.states);
+  const auto compute = [&](size_t k, const cv::Point& corner, const DealtRows& dealt) {
+    computePartCost(parts[k], corner, side, static_cast<float>(weight), dealt, workspace, costs[k]);
+  };
+  const double states = grid.states.area();
+  if (!is_sparse) {
+    const double steps = states * static_cast<double>(parts.size());
+    onDealtRows(workspace.threads, steps, [&](const DealtRows& dealt) {
+      for (size_t k = 0; k < parts.size(); ++k) compute(k, grid.corners[k], dealt);
+    });
+    return;
+  }
   for (size_t k = 0; k < parts.size(); ++k) {
-    if (is_sparse) {
-      wanted.assign(wanted.size(), false);
-      markCodes(parts[k], wanted);
-      countWanted(pixels, channel, grid.latticeOf(k), workspace);
-    }
-    const cv::Point corner = is_sparse ? cv::Point(0, 0) : grid.corners[k];
-    costs[k].create(grid.states);
-    computePartCost(parts[k], corner, side, static_cast<float>(weight), workspace, costs[k]);
+    wanted.assign(wanted.size(), false);
+    markCodes(parts[k], wanted);
+    countWanted(pixels, channel, grid.latticeOf(k), workspace);
+    onDealtRows(workspace.threads, states,
+                [&](const DealtRows& dealt) { compute(k, cv::Point(0, 0), dealt); });
   }
 }
 

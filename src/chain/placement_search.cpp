@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "state_motion.h"
+#include "workers.h"
 
 namespace chain_tracker {
 namespace {
@@ -85,17 +86,34 @@ int turnsFor(const std::vector<RigidSegment>& segments, int step) {
   return cvCeil(std::clamp(way / kCellsPerTurn, kFewestTurns, kMostTurns));
 }
 
+Placement cheapestOfTurn(int turn, const Similarity& rotation, const std::vector<cv::Mat1f>& costs,
+                         const std::vector<cv::Point2d>& offsets, const cv::Rect& middles,
+                         cv::Mat1f& sums) {
+  sums.create(middles.size());
+  sums = 0.0F;
+  for (size_t k = 0; k < costs.size(); ++k) {
+    const cv::Point offset(rotation.apply(offsets[k]));
+    cv::add(sums, costs[k](middles + offset), sums);
+  }
+  Placement cheapest{turn, {}, 0.0};
+  cv::minMaxLoc(sums, &cheapest.cost, nullptr, &cheapest.middle);
+  cheapest.middle += middles.tl();
+  return cheapest;
+}
+
 /// Segments placed one after the other, from one that is placed freely outwards.
 class ChainPlacement {
  public:
   ChainPlacement(const std::vector<RigidSegment>& segments, const std::vector<Hinge>& hinges,
-                 const Region& region, const std::vector<std::vector<cv::Mat1f>>& costs, int turns)
+                 const Region& region, const std::vector<std::vector<cv::Mat1f>>& costs, int turns,
+                 int threads)
       : segments_(segments),
         hinges_(hinges),
         cells_(region.cells),
         middles_(region.middles),
         costs_(costs),
         turns_(turns),
+        threads_(threads),
         motions_(segments.size()) {}
 
   /// Returns the cost of all.
@@ -127,7 +145,7 @@ class ChainPlacement {
     for (const Voter& voter : segments_[m].voters) {
       offsets.push_back((voter.position - middle) / cells_.step);
     }
-    const Placement best = cheapestPlacement(costs_[m], offsets, middles_, turns_);
+    const Placement best = cheapestPlacement(costs_[m], offsets, middles_, turns_, threads_);
     motions_[m] = rigidMotion(angleOf(best.turn), middle, cells_.centerOf(best.middle));
   }
 
@@ -174,6 +192,7 @@ class ChainPlacement {
   const cv::Rect& middles_;
   const std::vector<std::vector<cv::Mat1f>>& costs_;
   int turns_;
+  int threads_;
   std::vector<Similarity> motions_;
 };
 
@@ -181,22 +200,18 @@ class ChainPlacement {
 
 Placement cheapestPlacement(const std::vector<cv::Mat1f>& costs,
                             const std::vector<cv::Point2d>& offsets, const cv::Rect& middles,
-                            int turns) {
-  Placement best;
-  cv::Mat1f sums(middles.size());
-  for (int turn = 0; turn < turns; ++turn) {
-    const Similarity rotation{2.0 * CV_PI * turn / turns, 1.0, {}};
-    sums = 0.0F;
-    for (size_t k = 0; k < costs.size(); ++k) {
-      const cv::Point offset(rotation.apply(offsets[k]));
-      cv::add(sums, costs[k](middles + offset), sums);
-    }
-    double cost = 0.0;
-    cv::Point cheapest;
-    cv::minMaxLoc(sums, &cost, nullptr, &cheapest);
-    if (cost < best.cost) best = {turn, middles.tl() + cheapest, cost};
-  }
-  return best;
+                            int turns, int threads) {
+  std::vector<Placement> cheapest(static_cast<size_t>(turns));
+  std::vector<cv::Mat1f> sums(static_cast<size_t>(threads));
+  const auto place = [&](size_t turn, size_t worker) {
+    const Similarity rotation{2.0 * CV_PI * static_cast<double>(turn) / turns, 1.0, {}};
+    cheapest[turn] =
+        cheapestOfTurn(static_cast<int>(turn), rotation, costs, offsets, middles, sums[worker]);
+  };
+  const double steps = static_cast<double>(costs.size()) * middles.area();
+  shareOut(threads, cheapest.size(), steps, place);
+  const auto is_cheaper = [](const Placement& a, const Placement& b) { return a.cost < b.cost; };
+  return *std::min_element(cheapest.begin(), cheapest.end(), is_cheaper);
 }
 
 std::vector<Similarity> PlacementSearch::find(const std::vector<RigidSegment>& segments,
@@ -209,7 +224,8 @@ std::vector<Similarity> PlacementSearch::find(const std::vector<RigidSegment>& s
     costs.push_back(
         voterCosts(segment.voters, segment.side, region.cells, model_, pixels, workspace_));
   }
-  ChainPlacement placement(segments, hinges, region, costs, turnsFor(segments, region.cells.step));
+  ChainPlacement placement(segments, hinges, region, costs, turnsFor(segments, region.cells.step),
+                           workspace_.threads);
   std::vector<Similarity> best;
   double least = kInfinity;
   for (size_t anchor = 0; anchor < segments.size(); ++anchor) {
@@ -235,7 +251,7 @@ std::vector<Similarity> PlacementSearch::hang(const std::vector<RigidSegment>& s
     costs[m] =
         voterCosts(segments[m].voters, segments[m].side, region.cells, model_, pixels, workspace_);
   }
-  ChainPlacement placement(segments, hinges, region, costs, kFineTurns);
+  ChainPlacement placement(segments, hinges, region, costs, kFineTurns, workspace_.threads);
   placement.hangUnseen(seen);
   return placement.motions();
 }

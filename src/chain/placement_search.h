@@ -42,15 +42,19 @@ struct Placement {
 /// The placement whose parts cost least, the first one of several: over all cells in `middles` and
 /// `turns` equal turns, of which turn 0 is none. `costs[k]`: of part k with its centre in each
 /// cell, equal sizes; `offsets[k]`: of part k from the middle [cells], rounded to whole cells once
-/// turned, with which it must stay on the map. O(turns x parts x cells of `middles`).
+/// turned, with which it must stay on the map. O(turns x parts x cells of `middles`), which
+/// `threads` share.
 Placement cheapestPlacement(const std::vector<cv::Mat1f>& costs,
                             const std::vector<cv::Point2d>& offsets, const cv::Rect& middles,
-                            int turns);
+                            int turns, int threads = 1);
 
 class PlacementSearch {
  public:
   PlacementSearch(const AppearanceModel& model, const cv::Size& image_size)
       : model_(model), image_(cv::Point(), image_size) {}
+
+  /// That share the work, at least 1.
+  void useThreads(int threads) { workspace_.threads = threads; }
 
   /// The rigid motion of each segment [px], exact to about a third of a window. The middle of the
   /// segment that is placed freely stays within `radius` [px] to each side of where the segments

@@ -66,6 +66,12 @@ void requireSameKind(const cv::Mat& image, const cv::Size& first_size, int first
                               " " + cv::typeToString(first_type) + " as at initialisation");
 }
 
+void requireThreads(int threads) {
+  if (threads >= 1 && threads <= kMostThreads) return;
+  throw std::invalid_argument("threads is " + std::to_string(threads) + ", must be in [1, " +
+                              std::to_string(kMostThreads) + "]");
+}
+
 void requirePartsFit(const ChainLayout& layout, const cv::Size& image_size) {
   for (const SegmentLayout& segment : layout.segments) {
     if (hasPartsRoom(segment, image_size)) continue;

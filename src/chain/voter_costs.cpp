@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "robust_costs.h"
+#include "workers.h"
 
 namespace chain_tracker {
 
@@ -22,10 +23,11 @@ std::vector<cv::Mat1f> voterCosts(const std::vector<Voter>& voters, double side,
   for (const Voter& voter : voters) colors.push_back(voter.colors);
   std::vector<cv::Mat1f> costs;
   computePartCosts(pixels, Channel::kColors, colors, grid, model.weight, costs, workspace);
-  for (size_t k = 0; k < voters.size(); ++k) {
+  const auto soften = [&](size_t k, size_t /*worker*/) {
     costs[k] *= voters[k].known;
     softenCosts(voters[k].outlier_cost, model.outlier_slope, costs[k]);
-  }
+  };
+  shareOut(workspace.threads, voters.size(), cells.size.area(), soften);
   return costs;
 }
 

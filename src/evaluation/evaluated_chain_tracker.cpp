@@ -9,13 +9,14 @@ namespace {
 
 class EvaluatedChainTracker : public EvaluatedTracker {
  public:
-  EvaluatedChainTracker(ChainModel model, std::vector<cv::Point2d> points)
-      : model_(std::move(model)), points_(std::move(points)) {}
+  EvaluatedChainTracker(ChainModel model, std::vector<cv::Point2d> points, int threads)
+      : model_(std::move(model)), points_(std::move(points)), threads_(threads) {}
 
   std::string name() const override { return "chain_tracker"; }
 
   TrackedFrame start(const cv::Mat& image) override {
     tracker_ = std::make_unique<ChainTracker>(model_, image, points_);
+    tracker_->useThreads(threads_);
     return report(tracker_->state());
   }
 
@@ -36,14 +37,16 @@ class EvaluatedChainTracker : public EvaluatedTracker {
 
   ChainModel model_;
   std::vector<cv::Point2d> points_;
+  int threads_;
   std::unique_ptr<ChainTracker> tracker_;
 };
 
 }  // namespace
 
 std::unique_ptr<EvaluatedTracker> makeChainTracker(const ChainModel& model,
-                                                   const std::vector<cv::Point2d>& points) {
-  return std::make_unique<EvaluatedChainTracker>(model, points);
+                                                   const std::vector<cv::Point2d>& points,
+                                                   int threads) {
+  return std::make_unique<EvaluatedChainTracker>(model, points, threads);
 }
 
 }  // namespace chain_tracker

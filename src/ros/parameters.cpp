@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "chain_tracker/chain/target_checks.h"
+
 namespace chain_tracker {
 namespace {
 
@@ -123,7 +125,7 @@ TrackerParameters parametersFrom(const XmlRpcValue& tree) {
   reader.read("init_timeout", 0.1, 600.0, &parameters.init_timeout);
   reader.read("history", 0, 1000, &parameters.history);
   reader.read("pixel_size", 1e-6, 1.0, &parameters.pixel_size);
-  reader.read("threads", 0, 256, &parameters.threads);
+  reader.read("threads", 0, kMostThreads, &parameters.threads);
   if (!reader.faults().empty()) throw std::invalid_argument(reader.faults());
   return parameters;
 }

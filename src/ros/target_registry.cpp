@@ -162,7 +162,7 @@ FrameResult TargetRegistry::process(const Frame& frame, const cv::Mat& image) {
   return result;
 }
 
-/// They share nothing but the image.
+/// They share nothing but the image: each has a thread to itself, or one all threads.
 void TargetRegistry::advanceAll(const Frame& frame, const cv::Mat& image, FrameResult* result) {
   std::vector<std::pair<const std::string*, Target*>> targets;
   targets.reserve(targets_.size());
@@ -171,10 +171,16 @@ void TargetRegistry::advanceAll(const Frame& frame, const cv::Mat& image, FrameR
   const auto advance_some = [&](const cv::Range& range) {
     for (auto i = static_cast<std::size_t>(range.start); i < static_cast<std::size_t>(range.end);
          ++i) {
+      targets[i].second->tracker.useThreads(targets.size() == 1 ? threads_ : 1);
       advanceAndTell(frame, image, *targets[i].first, targets[i].second, &results[i]);
     }
   };
-  cv::parallel_for_({0, static_cast<int>(targets.size())}, advance_some, threads_);
+  const cv::Range all(0, static_cast<int>(targets.size()));
+  if (all.size() == 1) {
+    advance_some(all);
+  } else {
+    cv::parallel_for_(all, advance_some, threads_);
+  }
   for (FrameResult& one : results) {
     std::move(one.notes.begin(), one.notes.end(), std::back_inserter(result->notes));
     std::move(one.faults.begin(), one.faults.end(), std::back_inserter(result->faults));

@@ -3,6 +3,7 @@
 ///
 /// Three kinds of threads: the nodelet manager's, which only put images into the mailbox; the
 /// worker, which tracks and publishes; those of the commands.
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <memory>
@@ -20,6 +21,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include "chain_tracker/TrackedObjectArray.h"
+#include "chain_tracker/chain/target_checks.h"
 #include "chain_tracker/image/color_palette.h"
 #include "chain_tracker/ros/frame_mailbox.h"
 #include "chain_tracker/ros/image_conversion.h"
@@ -122,7 +124,8 @@ void TrackerNodelet::configure() {
   }
   parameters_ = parametersFrom(tree);
   prepareForPalettes();
-  registry_.useThreads(parameters_.threads > 0 ? parameters_.threads : cv::getNumberOfCPUs());
+  const int cores = std::min(cv::getNumberOfCPUs(), kMostThreads);
+  registry_.useThreads(parameters_.threads > 0 ? parameters_.threads : cores);
   history_ = std::make_unique<ImageHistory>(static_cast<std::size_t>(parameters_.history));
   image_topic_ = getNodeHandle().resolveName("image");
   commands_ = std::make_unique<TargetCommands>(getName(), image_topic_, getPrivateNodeHandle(),

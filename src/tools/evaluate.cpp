@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
 
+#include "chain_tracker/chain/target_checks.h"
 #include "chain_tracker/evaluation/evaluated_tracker.h"
 #include "chain_tracker/ros/parameters.h"
 #include "common/evaluation_job.h"
@@ -77,6 +78,9 @@ void addOptions(CLI::App& app, Options& options) {
       ->check(CLI::IsMember(chain_tracker::baselineNames()));
   app.add_option("--max-frames", job.max_frames, "Stop after so many frames (0: all)")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+  app.add_option("--threads", job.threads, "Threads that an update may use, the baselines' too")
+      ->check(CLI::Range(1, chain_tracker::kMostThreads))
+      ->capture_default_str();
   app.add_option("--jobs", options.parallel_jobs, "Sequences of a suite run at once")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->needs(suite);
@@ -97,7 +101,7 @@ int judge(const nlohmann::json& mean_iou, bool complete, double min_iou) {
 int run(Options& options) {
   EvaluationJob& job = options.job;
   const auto is_interrupted = [] { return interrupted != 0; };
-  cv::setNumThreads(1);
+  cv::setNumThreads(job.threads);
   if (!options.suite.empty()) {
     const chain_tracker::SuiteResult result =
         chain_tracker::runSuite(options.suite, job, options.parallel_jobs, is_interrupted);

@@ -271,6 +271,31 @@ TEST(MatchChain, findsThePoseThatTheCostsShow) {
   }
 }
 
+/// Costs of few different values: poses and states tie.
+TEST(MatchChain, threadsChangeNothing) {
+  RandomInputs random(7);
+  ChainMatcherWorkspace many;
+  for (int threads = 2; threads <= 5; ++threads) {
+    for (const TinySize& size : {TinySize{{3}, 5, 3, 40}, TinySize{{2, 2}, 5, 1, 40}}) {
+      SCOPED_TRACE(std::to_string(threads) +
+                   " threads, segments: " + std::to_string(size.edges.size()));
+      TinyChain chain = tinyChain(random, size, true);
+      for (cv::Mat1f& costs : chain.candidates.back().costs) costs.setTo(1.0F, costs > 1.0F);
+      ChainMatcherWorkspace one;
+      const ChainMatch alone = matchChain(chain.problem(), one);
+      many.threads = threads;
+      const ChainMatch& together = matchChain(chain.problem(), many);
+      ASSERT_TRUE(alone.found());
+      EXPECT_EQ(alone.energy, together.energy);
+      for (size_t m = 0; m < chain.segments.size(); ++m) {
+        EXPECT_EQ(alone.segments[m].pose, together.segments[m].pose);
+        EXPECT_EQ(alone.segments[m].states, together.segments[m].states);
+        EXPECT_EQ("", firstDifference(alone.segments[m].energies, together.segments[m].energies));
+      }
+    }
+  }
+}
+
 TEST(MatchChain, findsNothingWhereNoChainIsAllowed) {
   RandomInputs random(3);
   for (const TinySize& size : {TinySize{{2}, 5, 3, 1}, TinySize{{2, 2}, 5, 3, 1}}) {

@@ -11,6 +11,7 @@
 #include "chain_tracker/chain/chain_tracker.h"
 #include "chain_tracker/evaluation/synthetic_scene.h"
 #include "support/drawn_box.h"
+#include "support/state_text.h"
 
 namespace chain_tracker {
 namespace {
@@ -210,15 +211,18 @@ TEST(ChainTrackerLoss, coveredPartsAreHiddenAndCarried) {
   EXPECT_EQ("TRACKING", toString(tracker.update(box.image(last)).status));
 }
 
+ChainTracker startTracker(const SyntheticScene& scene) {
+  const SceneFrame first = scene.render(0);
+  const std::string models = std::string(CHAIN_TRACKER_SOURCE_DIR) + "/config/models/";
+  return ChainTracker(loadChainModel(models + scene.model() + ".yaml"), first.image, first.points);
+}
+
 /// What is left looks a little like some of them.
 TEST(ChainTrackerLoss, whatVanishesIsLost) {
   for (const std::string name : {"bottle", "box", "robot_arm", "cable"}) {
     SCOPED_TRACE(name);
     const auto scene = makeScene(name, SceneOptions());
-    const SceneFrame first = scene->render(0);
-    const std::string models = std::string(CHAIN_TRACKER_SOURCE_DIR) + "/config/models/";
-    ChainTracker tracker(loadChainModel(models + scene->model() + ".yaml"), first.image,
-                         first.points);
+    ChainTracker tracker = startTracker(*scene);
     for (int index = 1; index <= 20; ++index) tracker.update(scene->render(index).image);
     ASSERT_NE(TrackingStatus::kLost, tracker.state().status);
     int lost = 0;
@@ -228,6 +232,27 @@ TEST(ChainTrackerLoss, whatVanishesIsLost) {
     }
     EXPECT_GE(lost, 18) << "of 20 frames without it";
     framesUntil(tracker, scene->render(41).image, TrackingStatus::kTracking, 10);
+  }
+}
+
+/// In doubt, lost and found again: what takes long enough to be shared out.
+TEST(ChainTrackerLoss, threadsChangeNothing) {
+  for (const std::string name : {"box", "robot_arm", "cable"}) {
+    SCOPED_TRACE(name);
+    const auto scene = makeScene(name, SceneOptions());
+    ChainTracker alone = startTracker(*scene);
+    ChainTracker together = startTracker(*scene);
+    together.useThreads(3);
+    int lost = 0;
+    for (int index = 1; index <= 16; ++index) {
+      const bool is_gone = index >= 4 && index < 12;
+      const cv::Mat image =
+          is_gone ? scene->renderWithoutObject(index) : cv::Mat(scene->render(index).image);
+      const std::string state = textOf(alone.update(image));
+      ASSERT_EQ(state, textOf(together.update(image))) << "frame " << index;
+      lost += alone.state().status == TrackingStatus::kLost ? 1 : 0;
+    }
+    EXPECT_GT(lost, 0);
   }
 }
 

@@ -135,6 +135,15 @@ TEST(ChainTrackerRefuses, imagesUnlikeTheFirstAndStaysAsItWas) {
   }
 }
 
+TEST(ChainTrackerRefuses, toUseNoThreadsOrTooMany) {
+  ChainTracker tracker(modelOf(Layout::kPlanar), DrawnBox().image(kStart),
+                       DrawnBox::corners(kStart));
+  for (const int threads : {-1, 0, 257}) {
+    EXPECT_EQ("", omissionsOf(chain_tracker::refusalOf([&] { tracker.useThreads(threads); }),
+                              {"threads is " + std::to_string(threads), "[1, 256]"}));
+  }
+}
+
 TEST(ChainTrackerTakes, theSmallestTargetsAndImages) {
   ChainModel model = modelOf(Layout::kPlanar);
   model.segments[0].parts = 2;

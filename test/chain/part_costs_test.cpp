@@ -246,6 +246,33 @@ TEST(ComputePartCosts, partsThatShareWindowsCostAsMuchAsAlone) {
   }
 }
 
+TEST(ComputePartCosts, threadsChangeNothing) {
+  RandomInputs random(11);
+  const cv::Mat image = texture(random, {300, 200}, CV_8UC3);
+  const ColorPalette palette = somePalette(image);
+  FramePixels pixels(palette, image);
+  PartCostsWorkspace many;
+  for (const double spread : {30.0, 9000.0}) {
+    for (int threads = 2; threads <= 5; ++threads) {
+      const std::vector<cv::Point2d> centers = random.points(4, 0.0, spread);
+      const CandidateGrid grid = gridAround(centers, 12.0, 1, 300.0);
+      SCOPED_TRACE(textOf(grid) + ", threads " + std::to_string(threads));
+      EXPECT_EQ(spread > 1000.0, grid.isSparse());
+      const std::vector<RootHistogram> parts(
+          centers.size(), learnPart(pixels, Channel::kColors, random.point(0.0, 200.0), 12.0));
+      std::vector<cv::Mat1f> alone;
+      PartCostsWorkspace one;
+      computePartCosts(pixels, Channel::kColors, parts, grid, 2.0, alone, one);
+      std::vector<cv::Mat1f> together;
+      many.threads = threads;
+      computePartCosts(pixels, Channel::kColors, parts, grid, 2.0, together, many);
+      for (size_t k = 0; k < parts.size(); ++k) {
+        EXPECT_EQ("", firstDifference(alone[k], together[k])) << "part " << k;
+      }
+    }
+  }
+}
+
 TEST(LearnPart, countsTheWindowAroundTheCenter) {
   RandomInputs random(7);
   const cv::Mat image = texture(random, {60, 40}, CV_8UC3);

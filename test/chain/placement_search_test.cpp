@@ -53,6 +53,20 @@ TEST(CheapestPlacement, isTheBestOfAll) {
   }
 }
 
+TEST(CheapestPlacement, threadsChangeNothing) {
+  RandomInputs random(4);
+  for (int threads = 2; threads <= 5; ++threads) {
+    const std::vector<cv::Mat1f> costs = random.costMaps(3, {120, 110});
+    const std::vector<cv::Point2d> offsets = random.points(3, -9.0, 9.0);
+    const cv::Rect middles(15, 15, 90, 80);
+    const Placement alone = cheapestPlacement(costs, offsets, middles, 32);
+    const Placement together = cheapestPlacement(costs, offsets, middles, 32, threads);
+    EXPECT_EQ(alone.turn, together.turn);
+    EXPECT_EQ(alone.middle, together.middle);
+    EXPECT_EQ(alone.cost, together.cost);
+  }
+}
+
 /// Learns an object, and looks for it in another image.
 class Search {
  public:

@@ -46,19 +46,28 @@ struct ChainMatch {
 /// [segment][pose]: a map over the states of a node.
 using PoseMaps = std::vector<std::vector<cv::Mat1f>>;
 
-/// Kept from call to call so that no memory is allocated once sizes have settled.
-struct ChainMatcherWorkspace {
+/// Of a thread: passes over a segment, under one pose after the other.
+struct PassWorkspace {
   std::vector<ChainSolverWorkspace> solvers;  ///< of the segments
-  std::vector<cv::Mat1f> best_forward;        ///< solvers.back().forward of an earlier pass
   EdgeSampler sampler;
   ChainEdges edges;
-  ChainEdges best_edges;
   ChainEdges backward_edges;
   std::vector<cv::Mat1f> costs;  ///< of a segment's nodes
-  PoseMaps ahead;                ///< segments up to this one, which end in each state
-  PoseMaps behind;               ///< segments from this one on, which begin in each state
-  PoseMaps into;                 ///< messages to the segment from the one before
-  PoseMaps from;                 ///< messages to the segment from the one behind
+  // The best of its passes over the last segment.
+  size_t best_pose = 0;
+  double best_energy = 0.0;
+  ChainEdges best_edges;
+  std::vector<cv::Mat1f> best_forward;  ///< solvers.back().forward
+};
+
+/// Kept from call to call so that no memory is allocated once sizes have settled.
+struct ChainMatcherWorkspace {
+  int threads = 1;  ///< that share the work, at least 1
+  std::vector<PassWorkspace> passes;
+  PoseMaps ahead;   ///< segments up to this one, which end in each state
+  PoseMaps behind;  ///< segments from this one on, which begin in each state
+  PoseMaps into;    ///< messages to the segment from the one before
+  PoseMaps from;    ///< messages to the segment from the one behind
   cv::Mat1f sum;
   ChainMatch match;
 };

@@ -46,6 +46,13 @@ class ChainTracker {
   /// before, windows of another size, searches of an object that is in doubt or partly hidden.
   const ChainState& update(const cv::Mat& image);
 
+  /// Threads that an update may use from now on; 1 at first. They share the maps of the parts'
+  /// costs and the poses of the segments where these are large, above all while the object is in
+  /// doubt: what update() returns does not depend on them. They are OpenCV's, of which there are
+  /// cv::getNumThreads(); inside another cv::parallel_for_() there is one.
+  /// Throws std::invalid_argument unless `threads` is in [1, 256].
+  void useThreads(int threads);
+
   const ChainState& state() const;
   const ChainModel& model() const;
 

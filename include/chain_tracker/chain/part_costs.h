@@ -56,6 +56,7 @@ struct CodeRoots {
 
 /// Kept from call to call so that no memory is allocated once sizes have settled.
 struct PartCostsWorkspace {
+  int threads = 1;                ///< that share the work, at least 1
   std::vector<bool> wanted;       ///< of the codes
   std::vector<cv::Mat1i> counts;  ///< of the codes
   std::vector<CodeRoots> roots;   ///< of the codes

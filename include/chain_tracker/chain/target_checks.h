@@ -45,4 +45,10 @@ void requireInside(const Silhouette& silhouette, const cv::Size& image_size);
 /// covered lens, nothing could be followed. Throws NothingToSee.
 void requireContrast(const cv::Mat& image, const Silhouette& silhouette);
 
+/// As more are never worth while.
+constexpr int kMostThreads = 256;
+
+/// In [1, kMostThreads].
+void requireThreads(int threads);
+
 }  // namespace chain_tracker

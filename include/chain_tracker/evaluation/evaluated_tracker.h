@@ -37,9 +37,10 @@ class EvaluatedTracker {
   virtual TrackedFrame update(const cv::Mat& image) = 0;
 };
 
-/// The chain tracker, started at `points`.
+/// The chain tracker, started at `points`, of which an update uses up to `threads` in [1, 256].
 std::unique_ptr<EvaluatedTracker> makeChainTracker(const ChainModel& model,
-                                                   const std::vector<cv::Point2d>& points);
+                                                   const std::vector<cv::Point2d>& points,
+                                                   int threads);
 
 /// Names that makeBaseline() knows in this build: camshift and mil always, kcf, csrt and medianflow
 /// where OpenCV was built with its contributed modules.

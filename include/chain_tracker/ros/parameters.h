@@ -24,7 +24,7 @@ struct TrackerParameters {
   double init_timeout = 5.0;            ///< longest wait for an image [s], in [0.1, 600]
   int history = 30;                     ///< images held for ~set_target with a stamp, in [0, 1000]
   double pixel_size = 0.001;            ///< of the markers [m/px], in [1e-6, 1]
-  int threads = 0;                      ///< objects tracked at once, in [0, 256]; 0: one a core
+  int threads = 0;                      ///< of an update, in [0, 256]; 0: one a core
 };
 
 /// The private parameters of a node as one value.

@@ -39,7 +39,8 @@ class TargetRegistry {
   /// now. Must not call the registry.
   using Answer = std::function<void(const std::string& refusal)>;
 
-  /// Objects that are tracked at once: at least 1. Not to be called while process() runs.
+  /// In [1, 256]: objects that are tracked at once, or threads that share the work of a single one.
+  /// Not to be called while process() runs.
   void useThreads(int threads) { threads_ = threads; }
 
   /// Starts an object on the next frame that shows anything where it is to be. One of the same id

@@ -159,7 +159,8 @@ std::vector<std::unique_ptr<EvaluatedTracker>> makeTrackers(const EvaluationJob&
                                                             const SequenceStart& start) {
   const ModelFolder models(ModelFolder::ofThisPackage());
   std::vector<std::unique_ptr<EvaluatedTracker>> trackers;
-  trackers.push_back(makeChainTracker(models.loadFor(start.points, start.model), start.points));
+  trackers.push_back(
+      makeChainTracker(models.loadFor(start.points, start.model), start.points, job.threads));
   for (const std::string& name : job.baselines) {
     trackers.push_back(makeBaseline(name, firstBox(truth, start)));
   }

@@ -23,6 +23,7 @@ struct EvaluationJob {
   std::vector<cv::Point2d> points;  ///< in frame 0; empty: what the sequence says
   std::vector<std::string> baselines;
   int max_frames = 0;
+  int threads = 1;    ///< of an update, in [1, 256]
   bool grey = false;  ///< whether to turn images grey first
   bool video = false;
   bool report = true;  ///< whether to draw report.html
