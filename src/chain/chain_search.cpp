@@ -24,7 +24,7 @@ constexpr double kFewestCells = 3.0;
 constexpr double kMostCandidates = 64.0;
 /// Steps to each side in the widest search, which bounds its time: what is thin, and so has a fine
 /// lattice, is not looked for all over the image.
-constexpr double kWidestReach = 64.0;
+constexpr double kWidestReach = 48.0;
 /// Of the refinement around the coarse match [px]: the windows of the coarse lattice are rounded to
 /// whole cells, which moves their optimum however fine the lattice is.
 constexpr int kLeastReach = 4;
