@@ -77,6 +77,13 @@ PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
           std::min(3, model.scale_hypotheses), fine_step(model.scale_hypotheses, model.scale_step)};
 }
 
+/// Of the part's window.
+double shareOutside(const PartState& part, const cv::Rect2d& image) {
+  const cv::Point2d half(0.5 * part.side, 0.5 * part.side);
+  const cv::Rect2d window(part.position - half, part.position + half);
+  return 1.0 - (window & image).area() / window.area();
+}
+
 void interpolatePoses(const std::vector<PoseGrid>& grids, const ChainMatch& match,
                       std::vector<SegmentPose>& poses) {
   poses.clear();
@@ -92,6 +99,7 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
     : model_(model),
       layout_(layout.segments),
       appearance_(model.appearance, image, layout, initial),
+      image_(cv::Point2d(-0.5, -0.5), cv::Size2d(image.size())),
       expectations_(appearance_.learned(), model.appearance, initial.parts.size()),
       overlaps_(initial.parts),
       joint_memory_(initial),
@@ -151,7 +159,7 @@ void ChainSearch::find(const ChainState& sought, const SearchRange& range, Found
   coarse_ = range.is_narrow ? &narrow_ : &wide_;
   springs_.relax(sought, range.looseness, layout_);
   found.state = sought;
-  found.state.confidence = found.likeness = 0.0;
+  found.state.confidence = found.likeness = found.expected_likeness = 0.0;
   StepTimes& times = found.state.times = StepTimes();
   lookCoarsely();
   times.part_costs = watch.lap();
@@ -368,17 +376,21 @@ void ChainSearch::settle(FoundChain& found) {
         refineChain(layout_, poses_, fine_.segments, fine_workspace_);
     if (parts.empty()) return;
     fillIn(parts, found.state);
-    found.likeness = likeness(parts, found.state.parts);
+    compare(parts, found);
     takePoses(found.state, poses_);
   }
 }
 
-double ChainSearch::likeness(const std::vector<RefinedPart>& refined,
-                             const std::vector<PartState>& parts) {
+/// With what was learned.
+void ChainSearch::compare(const std::vector<RefinedPart>& refined, FoundChain& found) {
+  const std::vector<PartState>& parts = found.state.parts;
   costs_ = edge_costs_;
   for (size_t k = 0; k < refined.size(); ++k) costs_[k] += refined[k].appearance;
   overlaps_.computeShares(parts, shares_);
-  return expectations_.likeness(costs_, shares_);
+  outside_.clear();
+  for (const PartState& part : parts) outside_.push_back(shareOutside(part, image_));
+  found.likeness = expectations_.likeness(costs_, shares_);
+  found.expected_likeness = expectations_.expectedLikeness(costs_, shares_, outside_);
 }
 
 bool ChainSearch::areSegmentsSeen(double share, const ChainState& found) const {

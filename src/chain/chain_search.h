@@ -38,7 +38,9 @@ struct SearchRange {
 /// What a search has found.
 struct FoundChain {
   ChainState state;
-  double likeness = 0.0;  ///< of PartExpectations; 0 if the springs allow no chain
+  // Of PartExpectations; 0 if the springs allow no chain.
+  double likeness = 0.0;
+  double expected_likeness = 0.0;
 };
 
 class ChainSearch {
@@ -125,7 +127,7 @@ class ChainSearch {
                             ChainMatcherWorkspace& workspace) const;
   const ChainMatch& matchFinePoses();
   void settle(FoundChain& found);
-  double likeness(const std::vector<RefinedPart>& refined, const std::vector<PartState>& parts);
+  void compare(const std::vector<RefinedPart>& refined, FoundChain& found);
   bool areSegmentsSeen(double share, const ChainState& found) const;
   void fillIn(const std::vector<RefinedPart>& parts, ChainState& found);
   void fitSegments(double scaling, ChainState& found);
@@ -135,6 +137,7 @@ class ChainSearch {
   ChainModel model_;
   std::vector<SegmentLayout> layout_;
   AppearanceCosts appearance_;
+  cv::Rect2d image_;  // its pixels with their borders
   PartExpectations expectations_;
   PartOverlaps overlaps_;
   JointMemory joint_memory_;
@@ -160,6 +163,7 @@ class ChainSearch {
   std::vector<double> edge_costs_;  // of the parts where the coarse search found them
   std::vector<double> costs_;       // of the parts by all channels
   std::vector<double> shares_;      // of PartOverlaps
+  std::vector<double> outside_;     // shares of the parts' windows
   // One for each number of states, which would else be allocated anew.
   ChainMatcherWorkspace pose_workspace_;
   ChainRefinementWorkspace fine_workspace_;

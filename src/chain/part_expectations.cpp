@@ -18,6 +18,10 @@ constexpr double kRise = 0.1;
 constexpr double kPartSinks = 0.05;
 constexpr double kObjectSinks = 0.003;
 
+/// Of the likeness of the rest, what is outside the image is believed to have: less than all, so
+/// that of two chains that look alike the one is preferred of which more is seen.
+constexpr double kBelievedOutside = 0.9;
+
 /// What a part would cost on a flat piece of background: little if its own window shows little
 /// else, so that it cannot tell whether the object is there.
 double evidenceOf(const PartAppearance& learned, const AppearanceModel& model) {
@@ -75,6 +79,22 @@ double PartExpectations::likeness(const std::vector<double>& costs,
     all += evidence;
   }
   return like / all;
+}
+
+double PartExpectations::expectedLikeness(const std::vector<double>& costs,
+                                          const std::vector<double>& shares,
+                                          const std::vector<double>& outside) const {
+  double all = 0.0;
+  double unseen = 0.0;
+  for (size_t k = 0; k < costs.size(); ++k) {
+    const double evidence = evidence_[k] + edge_evidence_[k];
+    unseen += shares[k] * outside[k] * evidence;
+    all += evidence;
+  }
+  const double seen = likeness(costs, shares);
+  const double rest = std::min(1.0, seen * all / std::max(kNoEvidence, all - unseen));
+  const double believed = kBelievedOutside * std::min(1.0, rest / usual_likeness_);
+  return seen + believed * rest * unseen / all;
 }
 
 double PartExpectations::meanConfidence(const std::vector<PartState>& parts, size_t first,

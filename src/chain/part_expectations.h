@@ -32,6 +32,12 @@ class PartExpectations {
   /// but not whether either is, as confidences do.
   double likeness(const std::vector<double>& costs, const std::vector<double>& shares) const;
 
+  /// The same if all of the object were inside the image: what is outside looks about as the rest
+  /// does, if that looks as usual, and the less so the less it does. `outside`: shares of the
+  /// parts' windows, in [0, 1].
+  double expectedLikeness(const std::vector<double>& costs, const std::vector<double>& shares,
+                          const std::vector<double>& outside) const;
+
   /// Mean confidence of `count` parts, weighted by what they can tell.
   double meanConfidence(const std::vector<PartState>& parts, size_t first, size_t count) const;
 

@@ -61,6 +61,10 @@ bool isOpen(const SegmentLayout& line) {
   return cv::norm(ends) > kOpen * length;
 }
 
+void forget(FoundChain& found) {
+  found.state.confidence = found.likeness = found.expected_likeness = 0.0;
+}
+
 }  // namespace
 
 SecondLook::SecondLook(const ChainModel& model, const ChainLayout& layout,
@@ -107,13 +111,13 @@ void SecondLook::lookElsewhere(const ChainState& before, FoundChain& found) {
 FoundChain SecondLook::findLost(int frames_lost) {
   times_ = StepTimes();
   FoundChain found = look(frames_lost, kWidestWhenLost);
-  if (past_views_.showed(found.state, image_)) found.state.confidence = found.likeness = 0.0;
+  if (past_views_.showed(found.state, image_)) forget(found);
   return found;
 }
 
 void SecondLook::observe(const FoundChain& found) {
   const double least = is_line_ ? kTrustedLine : kTrusted;
-  if (found.likeness < least * search_.expectations().usualLikeness()) return;
+  if (found.expected_likeness < least * search_.expectations().usualLikeness()) return;
   trusted_ = found.state;
   past_views_.remember(image_, found.state);
 }
@@ -130,10 +134,11 @@ void SecondLook::preferBetter(FoundChain other, FoundChain& found) const {
 }
 
 /// A chain elsewhere is believed in if it is better by `gain`, would do to end a loss and is
-/// nothing that stood there before.
+/// nothing that stood there before. What lies outside the image speaks for neither: a chain of
+/// which less can be seen than of another one is not worse for that.
 void SecondLook::preferBetter(FoundChain other, double gain, FoundChain& found) const {
   const bool is_sure = other.state.confidence >= model_.search.found_above;
-  const bool is_better = other.likeness > found.likeness + gain;
+  const bool is_better = other.expected_likeness > found.expected_likeness + gain;
   if (is_sure && is_better && !past_views_.showed(other.state, image_)) found = std::move(other);
 }
 

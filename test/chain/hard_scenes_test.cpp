@@ -105,7 +105,7 @@ std::vector<Case> cases() {
           {"spinning_bottle", "bottle", spinning, 0.9},
           {"spinning_box", "box", spinning, 0.95},
           {"spinning_cable", "cable", spinning, 0.95},
-          {"spinning_robot_arm", "robot_arm", spinning, 0.9},
+          {"spinning_robot_arm", "robot_arm", spinning, 0.92, 6},
           {"spinning_finger_pair", "finger_pair", spinning, 0.95},
           {"spinning_guitar_string", "guitar_string", spinning, 0.9},
           {"darting_bottle", "bottle", darting, 0.95},

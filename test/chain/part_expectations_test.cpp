@@ -141,6 +141,42 @@ TEST_F(PartExpectationsTest, likenessSinksFromOneToNoughtWithTheCostsOfAllChanne
   EXPECT_NEAR(0.0, expectations_.likeness(costs, all), 1e-9);
 }
 
+TEST_F(PartExpectationsTest, outsideTheImageAllIsExpectedToLookAsTheRestDoes) {
+  const std::vector<double> all(parts_, 1.0);
+  std::vector<double> evidence;
+  for (size_t k = 0; k < parts_; ++k) evidence.push_back(expectations_.outlierCost(k, 0.0));
+  std::vector<double> outside(parts_, 0.0);
+  std::vector<double> costs = evidence;
+  double unseen = 0.0;
+  double told = 0.0;
+  for (size_t k = 0; k < parts_; ++k) {
+    if (k % 3 == 0) outside[k] = 1.0;
+    if (k % 3 != 0) costs[k] = 0.0;
+    if (k % 3 == 0) unseen += evidence[k];
+    told += evidence[k];
+  }
+  unseen /= told;
+  EXPECT_NEAR(1.0 - unseen, expectations_.likeness(costs, all), 1e-9);
+  EXPECT_NEAR(1.0 - 0.1 * unseen, expectations_.expectedLikeness(costs, all, outside), 1e-9);
+
+  // The rest looks half as usual: what is outside is believed to look half as well as that.
+  for (size_t k = 0; k < parts_; ++k) costs[k] = k % 3 == 0 ? evidence[k] : 0.5 * evidence[k];
+  const double seen = expectations_.likeness(costs, all);
+  EXPECT_NEAR(0.5 * (1.0 - unseen), seen, 1e-9);
+  EXPECT_NEAR(seen + 0.9 * 0.5 * 0.5 * unseen, expectations_.expectedLikeness(costs, all, outside),
+              1e-9);
+}
+
+TEST_F(PartExpectationsTest, wholeObjectsAreExpectedAsTheyAreAndUnseenOnesNotAtAll) {
+  const std::vector<double> all(parts_, 1.0);
+  std::vector<double> costs;
+  for (size_t k = 0; k < parts_; ++k) costs.push_back(0.1 * double(k % 7));
+  EXPECT_EQ(expectations_.likeness(costs, all),
+            expectations_.expectedLikeness(costs, all, std::vector<double>(parts_, 0.0)));
+  costs.assign(parts_, 1000.0);
+  EXPECT_EQ(0.0, expectations_.expectedLikeness(costs, all, all));
+}
+
 TEST_F(PartExpectationsTest, whatTwoPartsSeeIsLikeOnlyOnce) {
   const std::vector<double> halves(parts_, 0.5);
   EXPECT_NEAR(0.5, expectations_.likeness(std::vector<double>(parts_, 0.0), halves), 1e-9);
