@@ -44,11 +44,6 @@ constexpr size_t kFewestVoters = 4;
 /// Of the usual likeness: from which on a chain tells how the light has changed. It is lower than
 /// what is trusted otherwise, as in another light all looks less as learned.
 constexpr double kTellsLight = 0.6;
-/// Of the usual confidence: from which on a link shows its size. If one does not, none rescales by
-/// more than so much of what it may, unless all are seen at least so well and grow.
-constexpr double kShowsSize = 0.8;
-constexpr double kUnsureScaling = 0.25;
-constexpr double kShowsGrowth = 0.6;
 /// Of lengthEvidence(): from which on the two ends of a line can be told from one another.
 constexpr double kTellsPlace = 0.5;
 
@@ -64,17 +59,6 @@ int coarseStep(double side, double radius) {
   const double fine = side / kCellsPerWindow;
   const double affordable = std::min(2.0 * radius / kMostCandidates, side / kFewestCells);
   return std::max(1, static_cast<int>(std::lround(std::max(fine, affordable))));
-}
-
-/// Half the coarse steps around the best coarse pose. Where the coarse search has a
-/// single hypothesis, the fits alone turn or rescale the segment, by up to the coarse step.
-PoseGrid finePoses(const SegmentModel& model, const SegmentPose& coarse) {
-  const auto fine_step = [](int hypotheses, double step) {
-    return hypotheses > 1 ? 0.5 * step : step;
-  };
-  return {coarse, std::min(3, model.orientation_hypotheses),
-          fine_step(model.orientation_hypotheses, model.orientation_step),
-          std::min(3, model.scale_hypotheses), fine_step(model.scale_hypotheses, model.scale_step)};
 }
 
 /// Of the part's window.
@@ -105,6 +89,7 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       joint_memory_(initial),
       springs_(model, layout.segments),
       placement_search_(model.appearance, image.size()),
+      pose_fits_(model.segments, layout.segments, lengthRates(initial)),
       line_alignment_(layout.segments.front(), model.appearance, image.size()),
       wide_(layout.segments.size()),
       narrow_(layout.segments.size()),
@@ -116,11 +101,16 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
     variance_shares_.insert(variance_shares_.end(), segment.parts.size(),
                             isGrid(segment.layout) ? kCellVariance : 1.0);
   }
+}
+
+std::vector<double> ChainSearch::lengthRates(const ChainState& initial) {
+  std::vector<double> rates;
   for (size_t m = 0; m < segments(); ++m) {
     // The joints of a link tell its length, whatever it looks like.
     const bool is_link = layout_[m].entry || layout_[m].exit;
-    length_rates_.push_back(is_link ? 1.0 : lengthEvidence(colorsOf(initial.segments[m])));
+    rates.push_back(is_link ? 1.0 : lengthEvidence(colorsOf(initial.segments[m])));
   }
+  return rates;
 }
 
 /// Of the parts of a segment that the first frame shows.
@@ -134,7 +124,7 @@ std::vector<RootHistogram> ChainSearch::colorsOf(const SegmentState& initial) {
   return colors;
 }
 
-bool ChainSearch::isUniform() const { return length_rates_.front() < kTellsPlace; }
+bool ChainSearch::isUniform() const { return pose_fits_.lengthRate(0) < kTellsPlace; }
 
 void ChainSearch::observe(const FoundChain& found) {
   expectations_.observe(found.state.parts, found.likeness);
@@ -390,13 +380,7 @@ void ChainSearch::compare(const std::vector<RefinedPart>& refined, FoundChain& f
   outside_.clear();
   for (const PartState& part : parts) outside_.push_back(shareOutside(part, image_));
   found.likeness = expectations_.likeness(costs_, shares_);
-  found.expected_likeness = expectations_.expectedLikeness(costs_, shares_, outside_);
-}
-
-bool ChainSearch::areSegmentsSeen(double share, const ChainState& found) const {
-  const double least = share * expectations_.usualConfidence();
-  return std::all_of(found.segments.begin(), found.segments.end(),
-                     [=](const SegmentState& segment) { return segment.confidence >= least; });
+  found.expected_likeness = expectations_.expectedLikeness(found.likeness, shares_, outside_);
 }
 
 /// The parts were found under `poses_`.
@@ -415,37 +399,7 @@ void ChainSearch::fillIn(const std::vector<RefinedPart>& parts, ChainState& foun
     segment.confidence = expectations_.meanConfidence(
         found.parts, static_cast<size_t>(segment.first_part), layout_[m].parts.size());
   }
-  fitSegments(1.0, found);
-  const bool is_chain = segments() > 1;
-  if (is_chain && !areSegmentsSeen(kShowsSize, found)) doubtSizes(found);
-}
-
-/// A link that is hidden seems as long as whatever it is found on, and pulls its neighbours along:
-/// some shrink then. All grow where the object comes nearer faster than the fits have followed.
-void ChainSearch::doubtSizes(ChainState& found) {
-  const bool may_grow = areSegmentsSeen(kShowsGrowth, found);
-  fitSegments(std::max(kUnsureScaling, may_grow ? leastGrowth(found) : 0.0), found);
-}
-
-/// To the parts found, from `poses_` on. `scaling`: of how much a link may rescale.
-void ChainSearch::fitSegments(double scaling, ChainState& found) {
-  for (size_t m = 0; m < segments(); ++m) {
-    SegmentState& segment = found.segments[m];
-    PoseGrid poses = finePoses(model_.segments[m], poses_[m]);
-    if (poses.scales == 1) poses.scale_step *= scaling;
-    segment.image_from_segment =
-        fitSegment(layout_[m], poses, {found, segment}, length_rates_[m], fit_workspace_);
-  }
-}
-
-/// Of all links, of how much they may; negative if one shrinks.
-double ChainSearch::leastGrowth(const ChainState& found) const {
-  double least = 1.0;
-  for (size_t m = 0; m < segments(); ++m) {
-    const double growth = std::log(found.segments[m].image_from_segment.scale / poses_[m].scale);
-    least = std::min(least, growth / (0.5 * model_.segments[m].scale_step));
-  }
-  return least;
+  pose_fits_.fit(poses_, expectations_.usualConfidence(), found);
 }
 
 }  // namespace chain_tracker

@@ -22,7 +22,7 @@
 #include "part_expectations.h"
 #include "part_overlaps.h"
 #include "placement_search.h"
-#include "segment_fit.h"
+#include "pose_fits.h"
 #include "spring_relaxation.h"
 #include "stopwatch.h"
 
@@ -108,6 +108,7 @@ class ChainSearch {
 
   size_t segments() const { return layout_.size(); }
   std::vector<RootHistogram> colorsOf(const SegmentState& initial);
+  std::vector<double> lengthRates(const ChainState& initial);
   double sideOf(size_t m, double scale) const;
   double smallestSide(const std::vector<SegmentPose>& poses) const;
 
@@ -128,11 +129,7 @@ class ChainSearch {
   const ChainMatch& matchFinePoses();
   void settle(FoundChain& found);
   void compare(const std::vector<RefinedPart>& refined, FoundChain& found);
-  bool areSegmentsSeen(double share, const ChainState& found) const;
   void fillIn(const std::vector<RefinedPart>& parts, ChainState& found);
-  void fitSegments(double scaling, ChainState& found);
-  void doubtSizes(ChainState& found);
-  double leastGrowth(const ChainState& found) const;
 
   ChainModel model_;
   std::vector<SegmentLayout> layout_;
@@ -143,8 +140,8 @@ class ChainSearch {
   JointMemory joint_memory_;
   SpringRelaxation springs_;
   PlacementSearch placement_search_;
-  LineAlignment line_alignment_;      // of the first segment
-  std::vector<double> length_rates_;  // of the segments, for fitSegment()
+  PoseFits pose_fits_;
+  LineAlignment line_alignment_;  // of the first segment
   bool is_clearly_marked_ = false;
   int threads_ = 1;
   std::vector<double> variance_shares_;  // of the parts, in what the chain alone would leave
@@ -167,7 +164,6 @@ class ChainSearch {
   // One for each number of states, which would else be allocated anew.
   ChainMatcherWorkspace pose_workspace_;
   ChainRefinementWorkspace fine_workspace_;
-  SegmentFitWorkspace fit_workspace_;
 };
 
 }  // namespace chain_tracker

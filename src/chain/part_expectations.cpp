@@ -81,20 +81,18 @@ double PartExpectations::likeness(const std::vector<double>& costs,
   return like / all;
 }
 
-double PartExpectations::expectedLikeness(const std::vector<double>& costs,
-                                          const std::vector<double>& shares,
+double PartExpectations::expectedLikeness(double likeness, const std::vector<double>& shares,
                                           const std::vector<double>& outside) const {
   double all = 0.0;
   double unseen = 0.0;
-  for (size_t k = 0; k < costs.size(); ++k) {
+  for (size_t k = 0; k < outside.size(); ++k) {
     const double evidence = evidence_[k] + edge_evidence_[k];
     unseen += shares[k] * outside[k] * evidence;
     all += evidence;
   }
-  const double seen = likeness(costs, shares);
-  const double rest = std::min(1.0, seen * all / std::max(kNoEvidence, all - unseen));
+  const double rest = std::min(1.0, likeness * all / std::max(kNoEvidence, all - unseen));
   const double believed = kBelievedOutside * std::min(1.0, rest / usual_likeness_);
-  return seen + believed * rest * unseen / all;
+  return likeness + believed * rest * unseen / all;
 }
 
 double PartExpectations::meanConfidence(const std::vector<PartState>& parts, size_t first,

@@ -32,10 +32,10 @@ class PartExpectations {
   /// but not whether either is, as confidences do.
   double likeness(const std::vector<double>& costs, const std::vector<double>& shares) const;
 
-  /// The same if all of the object were inside the image: what is outside looks about as the rest
-  /// does, if that looks as usual, and the less so the less it does. `outside`: shares of the
-  /// parts' windows, in [0, 1].
-  double expectedLikeness(const std::vector<double>& costs, const std::vector<double>& shares,
+  /// What `likeness` would be if all of the object were inside the image: what is outside looks
+  /// about as the rest does, if that looks as usual, and the less so the less it does. `outside`:
+  /// shares of the parts' windows, in [0, 1].
+  double expectedLikeness(double likeness, const std::vector<double>& shares,
                           const std::vector<double>& outside) const;
 
   /// Mean confidence of `count` parts, weighted by what they can tell.

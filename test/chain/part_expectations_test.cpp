@@ -157,13 +157,16 @@ TEST_F(PartExpectationsTest, outsideTheImageAllIsExpectedToLookAsTheRestDoes) {
   }
   unseen /= told;
   EXPECT_NEAR(1.0 - unseen, expectations_.likeness(costs, all), 1e-9);
-  EXPECT_NEAR(1.0 - 0.1 * unseen, expectations_.expectedLikeness(costs, all, outside), 1e-9);
+  EXPECT_NEAR(1.0 - 0.1 * unseen,
+              expectations_.expectedLikeness(expectations_.likeness(costs, all), all, outside),
+              1e-9);
 
   // The rest looks half as usual: what is outside is believed to look half as well as that.
   for (size_t k = 0; k < parts_; ++k) costs[k] = k % 3 == 0 ? evidence[k] : 0.5 * evidence[k];
   const double seen = expectations_.likeness(costs, all);
   EXPECT_NEAR(0.5 * (1.0 - unseen), seen, 1e-9);
-  EXPECT_NEAR(seen + 0.9 * 0.5 * 0.5 * unseen, expectations_.expectedLikeness(costs, all, outside),
+  EXPECT_NEAR(seen + 0.9 * 0.5 * 0.5 * unseen,
+              expectations_.expectedLikeness(expectations_.likeness(costs, all), all, outside),
               1e-9);
 }
 
@@ -172,9 +175,10 @@ TEST_F(PartExpectationsTest, wholeObjectsAreExpectedAsTheyAreAndUnseenOnesNotAtA
   std::vector<double> costs;
   for (size_t k = 0; k < parts_; ++k) costs.push_back(0.1 * double(k % 7));
   EXPECT_EQ(expectations_.likeness(costs, all),
-            expectations_.expectedLikeness(costs, all, std::vector<double>(parts_, 0.0)));
+            expectations_.expectedLikeness(expectations_.likeness(costs, all), all,
+                                           std::vector<double>(parts_, 0.0)));
   costs.assign(parts_, 1000.0);
-  EXPECT_EQ(0.0, expectations_.expectedLikeness(costs, all, all));
+  EXPECT_EQ(0.0, expectations_.expectedLikeness(expectations_.likeness(costs, all), all, all));
 }
 
 TEST_F(PartExpectationsTest, whatTwoPartsSeeIsLikeOnlyOnce) {
