@@ -20,11 +20,9 @@ constexpr double kCellsPerWindow = 8.0;
 constexpr int kRefinedSteps = 4;
 /// Cells left along a window when a wide search makes the lattice coarser.
 constexpr double kFewestCells = 3.0;
-/// Candidates along a side of the search window up to which the lattice stays fine.
-constexpr double kMostCandidates = 64.0;
 /// Steps to each side in the widest search, which bounds its time: what is thin, and so has a fine
 /// lattice, is not looked for all over the image.
-constexpr double kWidestReach = 48.0;
+constexpr double kWidestReach = 40.0;
 /// Of the refinement around the coarse match [px]: the windows of the coarse lattice are rounded to
 /// whole cells, which moves their optimum however fine the lattice is.
 constexpr int kLeastReach = 4;
@@ -55,9 +53,10 @@ void takePoses(const ChainState& state, std::vector<SegmentPose>& poses) {
 }
 
 /// An eighth of a window, or coarser where a wide search would have too many candidates.
-int coarseStep(double side, double radius) {
+int coarseStep(double side, const SearchRange& range) {
   const double fine = side / kCellsPerWindow;
-  const double affordable = std::min(2.0 * radius / kMostCandidates, side / kFewestCells);
+  const double affordable =
+      std::min(2.0 * range.radius / range.most_candidates, side / kFewestCells);
   return std::max(1, static_cast<int>(std::lround(std::max(fine, affordable))));
 }
 
@@ -249,7 +248,7 @@ double ChainSearch::smallestSide(const std::vector<SegmentPose>& poses) const {
 /// Around where the nodes are believed to be.
 void ChainSearch::lookCoarsely() {
   for (size_t m = 0; m < segments(); ++m) takeNodePositions(layout_, sought_, m, centers_[m]);
-  const int step = coarseStep(smallestSide(previous_), range_.radius);
+  const int step = coarseStep(smallestSide(previous_), range_);
   const double radius = std::min(range_.radius, kWidestReach * step);
   lookAround(previous_, step, radius, SearchStage::kCoarse, coarse_->candidates);
   robustify(coarse_->candidates);

@@ -32,6 +32,8 @@ struct SearchRange {
   double radius = 0.0;         ///< of a part around where it is sought [px]
   double travel_weight = 0.0;  ///< cost of a part for every pixel from there
   double looseness = 1.0;      ///< of what bends anywhere: so much more than between two frames
+  /// Candidates along a side of the search window up to which the lattice stays fine.
+  double most_candidates = 64.0;
   bool is_narrow = false;  ///< far narrower than most: with maps of its own, which stay as large
 };
 

@@ -35,10 +35,13 @@ constexpr double kTrusted = 0.8;
 /// like the object, but does not slide back by itself.
 constexpr double kTrustedLine = 0.95;
 /// A line that is found again may have bent by so much more than between two frames, and that in up
-/// to so many steps, as long as each makes it look more as learned by kLeastGain.
+/// to so many steps, as long as each makes it look more as learned by kLeastGain. After the first
+/// its parts move little: of the usual reach, and so many candidates.
 constexpr double kLoose = 3.0;
 constexpr int kRefits = 4;
 constexpr double kLeastGain = 0.01;
+constexpr double kRefitReach = 0.5;
+constexpr double kRefitCandidates = 32.0;
 /// Around a line whose ends were moved: of the usual reach, of what it may bend between two frames,
 /// and how much more has to speak for it.
 constexpr double kEndReach = 0.15;
@@ -196,14 +199,17 @@ FoundChain SecondLook::halfTurned(const FoundChain& found) {
 /// A line bent along what it was found on, then as stiff as ever: one that may bend at will fits
 /// anything. Springs that remember where each edge pointed keep it from sliding along itself.
 FoundChain SecondLook::refitted(FoundChain found) {
+  const double near = kRefitReach * searchRadius();
+  SearchRange range{searchRadius(), 0.0, kLoose};
   for (int i = 0; i < kRefits; ++i) {
     shape_.carry(found.state);
-    FoundChain bent = find(found.state, {searchRadius(), 0.0, kLoose});
+    FoundChain bent = find(found.state, range);
     if (bent.likeness < found.likeness + kLeastGain) break;
     found = std::move(bent);
+    range = {near, 0.0, kLoose, kRefitCandidates};
   }
   shape_.carry(found.state);
-  return find(found.state, {searchRadius(), 0.0});
+  return find(found.state, {near, 0.0, 1.0, kRefitCandidates});
 }
 
 /// Nothing but its ends may tell how long a line is, and how far it lies along itself.
@@ -232,7 +238,9 @@ void SecondLook::learnEnds(const FoundChain& found) {
 /// Around `sought_`.
 void SecondLook::seekEnds() {
   shape_.carry(sought_);
-  search_.find(sought_, {kEndReach * searchRadius(), 0.0, kLooseEnds, true}, other_);
+  SearchRange range{kEndReach * searchRadius(), 0.0, kLooseEnds};
+  range.is_narrow = true;
+  search_.find(sought_, range, other_);
   times_ += other_.state.times;
 }
 

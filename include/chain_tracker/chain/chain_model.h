@@ -81,8 +81,8 @@ struct AppearanceModel {
 
 /// Where and when the object is looked for, and when it counts as found.
 struct SearchModel {
-  /// Reach of a part between frames, fraction of the image diagonal; of what is thin at most 64
-  /// steps of the coarse lattice, some 8 window sides, or 21 where it has been made coarser.
+  /// Reach of a part between frames, fraction of the image diagonal; of what is thin at most 40
+  /// steps of the coarse lattice, some 5 window sides, or 13 where it has been made coarser.
   double radius = 0.06;
   double lost_below = 0.07;  ///< confidence under which a tracked object becomes LOST
   double found_above = 0.2;  ///< confidence over which a LOST object is tracked again

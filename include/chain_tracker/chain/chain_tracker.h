@@ -38,7 +38,7 @@ class ChainTracker {
   /// the tracker is then as before.
   /// Time: linear in the number of parts; linear in the area of a part's search window. A frame in
   /// which the object begins to be in doubt takes three searches, every other one after it three
-  /// or, for a single deformable segment, every one up to eight, the widest of them over 129 x 129
+  /// or, for a single deformable segment, every one up to eight, the widest of them over 81 x 81
   /// candidates a part. While segments at an end of a chain are hidden, every other frame takes
   /// two.
   ///
