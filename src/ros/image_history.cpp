@@ -6,12 +6,14 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "chain_tracker/ros/stamp_order.h"
+
 namespace chain_tracker {
 namespace {
 
 bool belongTogether(const sensor_msgs::Image& earlier, const sensor_msgs::Image& later) {
   return earlier.width == later.width && earlier.height == later.height &&
-         earlier.header.stamp <= later.header.stamp;
+         !wentBack(earlier.header.stamp, later.header.stamp);
 }
 
 }  // namespace

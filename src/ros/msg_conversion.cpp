@@ -43,7 +43,7 @@ PartPose toMsg(const PartState& part, const std::string& name, bool lost) {
   message.name = name;
   message.pose = lost ? unknownPose() : poseMsg(part.position, part.orientation);
   message.size = static_cast<float>(lost ? kNaN : part.side);
-  message.confidence = static_cast<float>(part.confidence);
+  message.confidence = static_cast<float>(lost ? 0.0 : part.confidence);
   message.visible = part.visible && !lost;
   const bool known = !lost && std::isfinite(cv::sum(part.covariance)[0]);
   for (std::size_t i = 0; i < message.covariance.size(); ++i) {
@@ -59,7 +59,7 @@ SegmentPose toMsg(const SegmentState& segment, bool lost) {
   const Similarity& pose = segment.image_from_segment;
   message.pose = lost ? unknownPose() : poseMsg(pose.translation, pose.angle);
   message.scale = static_cast<float>(lost ? kNaN : pose.scale);
-  message.confidence = static_cast<float>(segment.confidence);
+  message.confidence = static_cast<float>(lost ? 0.0 : segment.confidence);
   message.first_part = static_cast<std::uint32_t>(segment.first_part);
   message.part_count = static_cast<std::uint32_t>(segment.part_count);
   return message;
@@ -69,7 +69,7 @@ TrackedPoint toMsg(const CarriedPoint& point, bool lost) {
   TrackedPoint message;
   message.x = static_cast<float>(lost ? kNaN : point.position.x);
   message.y = static_cast<float>(lost ? kNaN : point.position.y);
-  message.confidence = static_cast<float>(point.confidence);
+  message.confidence = static_cast<float>(lost ? 0.0 : point.confidence);
   message.visible = point.visible && !lost;
   return message;
 }

@@ -56,7 +56,7 @@ void TargetCommands::startOnFirstImage(const InitialTargets& targets) {
   for (const TargetRequest& request : targets.requests) {
     const auto answer = [name = name_, id = request.id](const std::string& refusal) {
       if (!refusal.empty()) {
-        ROS_FATAL_STREAM(name << ": '" << id << "' is not tracked: " << refusal);
+        ROS_ERROR_STREAM(name << ": '" << id << "' is not tracked: " << refusal);
       }
     };
     try {
@@ -142,6 +142,7 @@ void TargetCommands::refuseForWantOfAnImage(const std::string& reason) const {
   const std::string& fault = image_fault_.empty() ? reason : image_fault_;
   std::ostringstream sentence;
   sentence << "no image on topic " << image_topic_ << " within " << parameters_.init_timeout << " s"
+           << (paused_ ? ", as the tracker has been paused" : "")
            << (fault.empty() ? "" : " that can be used: " + fault);
   throw std::runtime_error(sentence.str());
 }

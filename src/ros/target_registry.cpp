@@ -11,19 +11,14 @@
 #include "chain_tracker/chain/target_checks.h"
 #include "chain_tracker/ros/image_conversion.h"
 #include "chain_tracker/ros/msg_conversion.h"
+#include "chain_tracker/ros/stamp_order.h"
 
 namespace chain_tracker {
 namespace {
 
 constexpr char kClosed[] = "the tracker is being shut down";
-/// Stamps that go back by less are of images that come out of order or of a clock that is
-/// corrected; a recording that starts again goes back by more.
-constexpr double kJitter = 0.5;
-
-/// Zero is no stamp at all.
-bool wentBack(const ros::Time& from, const ros::Time& to) {
-  return !to.isZero() && (from - to).toSec() > kJitter;
-}
+constexpr char kReplaced[] = "it has been started otherwise meanwhile";
+constexpr char kRemoved[] = "it has been removed";
 
 /// The points of an image of size `from`, in the same image at size `to`. Pixel centres lie on
 /// whole numbers, so the images share the corner (-0.5, -0.5).
@@ -111,6 +106,7 @@ void TargetRegistry::startAt(const Frame& frame, const TargetRequest& request,
   if (closed_) throw std::invalid_argument(kClosed);
   catchUp(history, last_frame_, &target);
   targets_.insert_or_assign(request.id, std::move(target));
+  refuseWaiting(request.id, kReplaced, &waiting_);
 }
 
 void TargetRegistry::catchUp(const ImageHistory& history, std::uint64_t up_to, Target* target) {
@@ -129,7 +125,19 @@ void TargetRegistry::catchUp(const ImageHistory& history, std::uint64_t up_to, T
 
 bool TargetRegistry::remove(const std::string& id) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return targets_.erase(id) > 0;
+  const bool was_tracked = targets_.erase(id) > 0;
+  const bool has_waited = refuseWaiting(id, kRemoved, &waiting_);
+  return was_tracked || has_waited;
+}
+
+bool TargetRegistry::refuseWaiting(const std::string& id, const std::string& reason,
+                                   std::vector<Waiting>* waiting) {
+  const auto others = std::stable_partition(
+      waiting->begin(), waiting->end(), [&](const Waiting& one) { return one.request.id != id; });
+  const bool any = others != waiting->end();
+  std::for_each(others, waiting->end(), [&](Waiting& one) { one.answer(reason); });
+  waiting->erase(others, waiting->end());
+  return any;
 }
 
 std::size_t TargetRegistry::restartAll() {
@@ -156,7 +164,10 @@ FrameResult TargetRegistry::process(const Frame& frame, const cv::Mat& image) {
     if (target.frame_number > frame.number) continue;
     // A target that has failed on this frame is not known to be anywhere in it.
     ChainState state = target.tracker.state();
-    if (target.frame_number < frame.number) state.status = TrackingStatus::kLost;
+    if (target.frame_number < frame.number) {
+      state.status = TrackingStatus::kLost;
+      state.confidence = 0.0;
+    }
     result.objects.push_back(toMsg(state, id, target.tracker.model().name, image.size()));
   }
   return result;
@@ -237,11 +248,13 @@ void TargetRegistry::advance(const Frame& frame, const cv::Mat& image, Target* t
   }
 }
 
-bool TargetRegistry::tryToStart(const Frame& frame, const cv::Mat& image, Waiting& waiting) {
+bool TargetRegistry::tryToStart(const Frame& frame, const cv::Mat& image, Waiting& waiting,
+                                std::vector<Waiting>* earlier) {
   std::string refusal;
   try {
     targets_.insert_or_assign(waiting.request.id,
                               start(frame, image, waiting.request.points, waiting.model));
+    refuseWaiting(waiting.request.id, kReplaced, earlier);
   } catch (const NothingToSee& error) {
     waiting.reason = error.what();
     return false;
@@ -255,11 +268,14 @@ bool TargetRegistry::tryToStart(const Frame& frame, const cv::Mat& image, Waitin
 void TargetRegistry::startWaiting(const Frame& frame, const cv::Mat& image, FrameResult* result) {
   std::vector<Waiting> still_waiting;
   for (Waiting& waiting : waiting_) {
-    if (tryToStart(frame, image, waiting)) continue;
-    result->faults.push_back({waiting.request.id, "waits to start: " + waiting.reason});
-    still_waiting.push_back(std::move(waiting));
+    if (!tryToStart(frame, image, waiting, &still_waiting)) {
+      still_waiting.push_back(std::move(waiting));
+    }
   }
   waiting_ = std::move(still_waiting);
+  for (const Waiting& waiting : waiting_) {
+    result->faults.push_back({waiting.request.id, "waits to start: " + waiting.reason});
+  }
 }
 
 }  // namespace chain_tracker

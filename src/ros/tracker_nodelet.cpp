@@ -98,11 +98,12 @@ TrackerNodelet::~TrackerNodelet() { stop(); }
 void TrackerNodelet::stop() {
   image_subscriber_.shutdown();
   check_timer_.stop();
-  // Closing ends all waiting, so that the threads can be joined at once.
+  // Closing ends all waiting, so that the threads can be joined at once; the worker speaks to the
+  // commands up to its end.
   registry_.close();
   mailbox_.close();
-  commands_.reset();
   if (worker_.joinable()) worker_.join();
+  commands_.reset();
 }
 
 void TrackerNodelet::onInit() {
@@ -171,7 +172,8 @@ void TrackerNodelet::check() {
     updater_->force_update();
     checks_without_report_ = 0;
   }
-  if (frames_received_ == 0 && ++checks_without_image_ == kPatience) {
+  if (frames_received_ > 0 || commands_->paused()) return;
+  if (++checks_without_image_ == kPatience) {
     NODELET_WARN_STREAM(getName() << ": no image has come on topic " << image_topic_
                                   << " yet; remap `image` if this is not the camera's");
   }

@@ -74,6 +74,15 @@ TEST(ImageHistory, ForgetsAnotherStream) {
   EXPECT_TRUE(history.holds(ros::Time(6.0)));
 }
 
+TEST(ImageHistory, KeepsImagesThatComeOutOfOrder) {
+  ImageHistory history(10);
+  history.add(frame(1, 10.0));
+  history.add(frame(2, 9.6));
+  history.add(frame(3, 0.0));  // no stamp at all
+  history.add(frame(4, 10.1));
+  EXPECT_EQ(history.between(0, 4).size(), 4u);
+}
+
 TEST(ImageHistory, OfNoCapacityHoldsNothing) {
   ImageHistory history(0);
   history.add(frame(1, 10.0));

@@ -179,12 +179,17 @@ TEST(MsgConversion, ALostObjectRepeatsNoPosition) {
   for (const PartPose& part : object.parts) {
     EXPECT_TRUE(std::isnan(part.pose.x));
     EXPECT_FALSE(part.visible);
+    EXPECT_EQ(part.confidence, 0.0f);
     EXPECT_EQ(part.covariance[0], -1.0f);
   }
-  for (const SegmentPose& segment : object.segments) EXPECT_TRUE(std::isnan(segment.pose.y));
+  for (const SegmentPose& segment : object.segments) {
+    EXPECT_TRUE(std::isnan(segment.pose.y));
+    EXPECT_EQ(segment.confidence, 0.0f);
+  }
   for (const TrackedPoint& point : object.points) {
     EXPECT_TRUE(std::isnan(point.x));
     EXPECT_FALSE(point.visible);
+    EXPECT_EQ(point.confidence, 0.0f);
   }
 }
 

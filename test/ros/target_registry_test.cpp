@@ -61,6 +61,19 @@ BottlePose movedBy(double x, double y) {
   return pose;
 }
 
+/// Two places for an object, of which the first, kStart, shows nothing at first.
+struct DarkStart {
+  RenderedScene scene{cv::Size(800, 240)};
+  BottlePose elsewhere = movedBy(480.0, 0.0);
+
+  cv::Mat bright() const { return scene.with({kStart, elsewhere}); }
+  cv::Mat dark() const {
+    cv::Mat image = bright();
+    image.colRange(0, 400) = cv::Scalar();
+    return image;
+  }
+};
+
 void expectAt(const TrackedObject& object, const cv::Point2d& centre, double tolerance = 4.0) {
   EXPECT_NEAR(object.pose.x, centre.x, tolerance);
   EXPECT_NEAR(object.pose.y, centre.y, tolerance);
@@ -173,6 +186,43 @@ TEST_F(TargetRegistryTest, AnObjectWaitsForAFrameThatShowsAnything) {
   ASSERT_EQ(result.objects.size(), 1u);
   EXPECT_EQ(result.objects[0].state, TrackedObject::INITIALIZING);
   EXPECT_EQ(answer->value_or("not answered"), "");
+}
+
+TEST_F(TargetRegistryTest, ALaterStartReplacesOneThatStillWaits) {
+  const DarkStart start;
+  const auto first = expect("a", RenderedScene::endsOf(kStart));
+  show(start.dark(), 1.0);
+  EXPECT_FALSE(first->has_value());
+  const auto second = expect("a", RenderedScene::endsOf(start.elsewhere));
+  const FrameResult result = show(start.dark(), 2.0);
+  EXPECT_EQ(first->value_or("still waits"), "it has been started otherwise meanwhile");
+  EXPECT_EQ(second->value_or("still waits"), "");
+  EXPECT_TRUE(result.faults.empty());
+  expectAt(show(start.bright(), 3.0).objects.at(0), start.elsewhere.centre);
+}
+
+TEST_F(TargetRegistryTest, AStartInThePastReplacesOneThatStillWaits) {
+  const DarkStart start;
+  const auto first = expect("a", RenderedScene::endsOf(kStart));
+  const Frame past = receive(start.dark(), 1.0);
+  registry_.process(past, start.dark());
+  EXPECT_FALSE(first->has_value());
+  registry_.startAt(past, {"a", "bottle", RenderedScene::endsOf(start.elsewhere)}, model_,
+                    history_);
+  EXPECT_EQ(first->value_or("still waits"), "it has been started otherwise meanwhile");
+  expectAt(show(start.bright(), 2.0).objects.at(0), start.elsewhere.centre);
+}
+
+TEST_F(TargetRegistryTest, AnObjectThatWaitsCanBeRemoved) {
+  const auto answer = expect("a", RenderedScene::endsOf(kStart));
+  const auto other = expect("b", RenderedScene::endsOf(kStart));
+  EXPECT_TRUE(registry_.remove("a"));
+  EXPECT_FALSE(registry_.remove("a"));
+  EXPECT_EQ(answer->value_or(""), "it has been removed");
+  const FrameResult result = show(scene_.with({kStart}), 1.0);
+  ASSERT_EQ(result.objects.size(), 1u);
+  EXPECT_EQ(result.objects[0].id, "b");
+  EXPECT_EQ(other->value_or("still waits"), "");
 }
 
 TEST_F(TargetRegistryTest, AWithdrawnObjectTellsWhyItWaited) {
@@ -292,6 +342,7 @@ TEST_F(TargetRegistryTest, AnObjectThatCannotStartAgainIsTriedAgain) {
   ASSERT_EQ(result.faults.size(), 1u);
   EXPECT_NE(result.faults[0].reason.find("cannot start again"), std::string::npos);
   EXPECT_EQ(result.objects.at(0).state, TrackedObject::LOST);
+  EXPECT_EQ(result.objects.at(0).confidence, 0.0f);
   result = show(scene_.with({kStart}), 3.0);
   EXPECT_TRUE(result.faults.empty());
   EXPECT_EQ(result.objects.at(0).state, TrackedObject::INITIALIZING);

@@ -43,8 +43,9 @@ class TargetRegistry {
   /// Not to be called while process() runs.
   void useThreads(int threads) { threads_ = threads; }
 
-  /// Starts an object on the next frame that shows anything where it is to be. One of the same id
-  /// is replaced if that succeeds. Returns a ticket for withdraw().
+  /// Starts an object on the next frame that shows anything where it is to be. If that succeeds,
+  /// one of the same id is replaced, and one that was asked for earlier and still waits is refused.
+  /// Returns a ticket for withdraw().
   std::uint64_t startAtNextFrame(const TargetRequest& request, const ChainModel& model,
                                  Answer answer);
 
@@ -57,7 +58,7 @@ class TargetRegistry {
   void startAt(const Frame& frame, const TargetRequest& request, const ChainModel& model,
                const ImageHistory& history);
 
-  /// False if there is no such object.
+  /// Also one that waits to start. False if there is no such object.
   bool remove(const std::string& id);
 
   /// Starts all objects again on the next frame, from the points given; returns their number.
@@ -108,8 +109,13 @@ class TargetRegistry {
   static void advanceAndTell(const Frame& frame, const cv::Mat& image, const std::string& id,
                              Target* target, FrameResult* result);
   void advanceAll(const Frame& frame, const cv::Mat& image, FrameResult* result);
-  /// False if the frame shows nothing there.
-  bool tryToStart(const Frame& frame, const cv::Mat& image, Waiting& waiting);
+  /// Answers all that wait under this id and takes them out; false if there are none.
+  static bool refuseWaiting(const std::string& id, const std::string& reason,
+                            std::vector<Waiting>* waiting);
+  /// False if the frame shows nothing there. Of `earlier`, which still wait, those of the same id
+  /// are refused otherwise.
+  bool tryToStart(const Frame& frame, const cv::Mat& image, Waiting& waiting,
+                  std::vector<Waiting>* earlier);
   void startWaiting(const Frame& frame, const cv::Mat& image, FrameResult* result);
 
   int threads_ = 1;
