@@ -33,11 +33,14 @@ constexpr int kBadInput = 2;
 /// Long enough for a message of every frame of a long bag: none may be lost here.
 constexpr int kQueueSize = 100000;
 constexpr double kPollSec = 0.02;
+/// Of the longest pause between two images: messages may come late.
+constexpr double kPatience = 2.0;
 
 struct Options {
   EvaluationJob job;
   double idle_timeout_sec = 5.0;
   double first_timeout_sec = 60.0;
+  double rate = 1.0;
   double min_iou = std::nan("");
 };
 
@@ -67,21 +70,27 @@ Options readOptions(const ros::NodeHandle& node) {
   options.min_iou = readParameter(node, "min_iou", options.min_iou, "a number");
   options.idle_timeout_sec = readSeconds(node, "idle_timeout", options.idle_timeout_sec);
   options.first_timeout_sec = readSeconds(node, "first_timeout", options.first_timeout_sec);
+  options.rate = readParameter(node, "rate", options.rate, "a number");
+  if (!(options.rate > 0.0)) {
+    throw std::invalid_argument("~rate is " + std::to_string(options.rate) +
+                                ", must be above 0: the speed at which the bag is played");
+  }
   return options;
 }
 
-/// Writes every message on `objects` into a bag.
+/// Writes every message on `objects` into a bag. What comes before run() is kept for it.
 class ObjectsRecorder {
  public:
-  /// `last_stamp`: of the image after which no message comes.
-  ObjectsRecorder(ros::NodeHandle& node, const EvaluationJob& job, const ros::Time& last_stamp)
-      : topic_(job.recorded_topic),
-        last_stamp_(last_stamp),
-        bag_(job.recording, rosbag::bagmode::Write),
-        subscriber_(node.subscribe("objects", kQueueSize, &ObjectsRecorder::record, this)) {}
+  explicit ObjectsRecorder(ros::NodeHandle& node)
+      : subscriber_(node.subscribe("objects", kQueueSize, &ObjectsRecorder::record, this)) {}
 
-  /// Returns when there is nothing more to record, in wall time: simulated time stops with the bag.
-  void run(double first_timeout_sec, double idle_timeout_sec) {
+  /// `last_stamp`: of the image after which no message comes. Returns when there is nothing more to
+  /// record, in wall time: simulated time stops with the bag.
+  void run(const EvaluationJob& job, const ros::Time& last_stamp, double first_timeout_sec,
+           double idle_timeout_sec) {
+    topic_ = job.recorded_topic;
+    last_stamp_ = last_stamp;
+    bag_.open(job.recording, rosbag::bagmode::Write);
     ros::WallTime since = ros::WallTime::now();
     int known = 0;
     while (ros::ok() && !ended_) {
@@ -93,6 +102,10 @@ class ObjectsRecorder {
       if ((now - since).toSec() > patience) break;
     }
     if (count_ == 0) throw std::runtime_error("no message on " + subscriber_.getTopic());
+    if (ros::ok() && !ended_) {
+      std::cerr << "evaluate_live: no message on " << subscriber_.getTopic() << " for "
+                << idle_timeout_sec << " s before the last image's, the rest counts as dropped\n";
+    }
     bag_.close();
   }
 
@@ -122,13 +135,14 @@ ros::Time stampOfLast(const std::map<ros::Time, int>& index_of) {
 int recordAndScore() {
   ros::NodeHandle node;
   const Options options = readOptions(ros::NodeHandle("~"));
-  checkGroundTruth(options.job);  // before the bag is played, which may take long
-  requireStamps(options.job.bag, options.job.topic);
-  fs::create_directories(options.job.out);
-  const std::map<ros::Time, int> index_of = indexByStamp(options.job.bag, options.job.topic);
+  checkGroundTruth(options.job);   // before the bag is played, which may take long
+  ObjectsRecorder recorder(node);  // the bag may be playing before its stamps are read
+  const std::map<ros::Time, int> index_of = indexByOwnStamps(options.job.bag, options.job.topic);
   if (index_of.empty()) throw std::invalid_argument(options.job.bag + " has no images");
-  ObjectsRecorder recorder(node, options.job, stampOfLast(index_of));
-  recorder.run(options.first_timeout_sec, options.idle_timeout_sec);
+  fs::create_directories(options.job.out);
+  const double pause = kPatience * longestPause(index_of) / options.rate;
+  recorder.run(options.job, stampOfLast(index_of), options.first_timeout_sec,
+               std::max(options.idle_timeout_sec, pause));
   const bool interrupted = !ros::ok();
   // What has been recorded is scored all the same, which takes no longer than reading the bag.
   const nlohmann::json summary = runJob(options.job, [] { return false; });
@@ -148,7 +162,10 @@ int main(int argc, char** argv) {
       "Parameters: _bag:=FILE and _topic:=TOPIC (that are played), _out:=DIR (folder to write),\n"
       "_id:=ID (object; default the first), _ground_truth:=FILE|TOPIC,\n"
       "_points:=x,y,... (where the tracker is started), _video:=true,\n"
-      "_min_iou:=X, _idle_timeout:=5 (ends so long after the last message [s]),\n"
+      "_min_iou:=X, _rate:=1 (speed at which the bag is played),\n"
+      "_idle_timeout:=5 (ends so long after the last message [s]; at least twice the longest "
+      "pause\n"
+      "between images),\n"
       "_first_timeout:=60 (gives up if none has come by then [s]).\n"
       "Exit codes: 0 scored, 1 the mean IoU is below ~min_iou, 2 bad input or no message.");
   try {

@@ -124,13 +124,21 @@ TEST_F(BagFrames, ASharedStampDoesNotShiftTheOthers) {
 TEST_F(BagFrames, ARecordingIsMatchedByStampsOfTheirOwn) {
   for (const double stamp : {1.0, 3.0, 2.0}) add(10.0 + stamp, stamp);
   bag_.close();
-  EXPECT_EQ(refusalOf([&] { requireStamps(path_, "/image"); }), "") << "their order does not count";
+  EXPECT_EQ(refusalOf([&] { indexByOwnStamps(path_, "/image"); }), "")
+      << "their order does not count";
+}
+
+TEST_F(BagFrames, TheLongestPauseIsBetweenStampsInTheirOrder) {
+  for (const double stamp : {1.0, 9.0, 4.0, 5.0}) add(10.0 + stamp, stamp);
+  bag_.close();
+  EXPECT_DOUBLE_EQ(longestPause(indexByOwnStamps(path_, "/image")), 4.0);
+  EXPECT_DOUBLE_EQ(longestPause({{ros::Time(3.0), 0}}), 0.0);
 }
 
 TEST_F(BagFrames, ARecordingCannotBeMatchedWithoutStamps) {
   for (const double time : {10.0, 11.0}) add(time, 0.0);
   bag_.close();
-  EXPECT_EQ(omissionsOf(refusalOf([&] { requireStamps(path_, "/image"); }),
+  EXPECT_EQ(omissionsOf(refusalOf([&] { indexByOwnStamps(path_, "/image"); }),
                         {path_ + ": frame 0 of /image has no stamp", "use `evaluate --bag`"}),
             "");
 }
@@ -138,7 +146,7 @@ TEST_F(BagFrames, ARecordingCannotBeMatchedWithoutStamps) {
 TEST_F(BagFrames, ARecordingCannotBeMatchedBySharedStamps) {
   for (const double stamp : {1.0, 2.0, 3.0, 2.0}) add(10.0 + stamp, stamp);
   bag_.close();
-  EXPECT_EQ(omissionsOf(refusalOf([&] { requireStamps(path_, "/image"); }),
+  EXPECT_EQ(omissionsOf(refusalOf([&] { indexByOwnStamps(path_, "/image"); }),
                         {path_ + ": frame ", "of /image has the stamp of frame 1"}),
             "");
 }

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The launch files: what they make of their arguments. Nothing is started."""
+import os
 import subprocess
 import unittest
 
@@ -41,6 +42,13 @@ class Config(ProgramTest):
                                             "image_transport:=theora"),
                          {"points": "5,6,7,8", "default_model": "/my/model.yaml",
                           "default_id": "foot", "image_transport": "theora", "history": "3"})
+
+    def test_paths_may_look_like_numbers(self):
+        dumped = roslaunch("--dump-params", "chain_tracker", "evaluate.launch", "bag:=1.bag",
+                           "ground_truth:=2", "out:=2024")
+        for name, value in (("bag", "1.bag"), ("ground_truth", "2"), ("out", "2024")):
+            self.assertIn(f"/evaluate_live/{name}: {os.getcwd()}/{value}\n", dumped)
+        roslaunch("--dump-params", "chain_tracker", "demo.launch", "record_dir:=7")
 
 
 if __name__ == "__main__":

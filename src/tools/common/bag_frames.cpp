@@ -2,6 +2,7 @@
 #include "bag_frames.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -134,6 +135,15 @@ std::vector<std::string> checkBag(const std::string& bag, const std::string& top
   return findings;
 }
 
+double longestPause(const std::map<ros::Time, int>& index_of) {
+  double longest = 0.0;
+  for (auto later = index_of.begin(); later != index_of.end(); ++later) {
+    if (later == index_of.begin()) continue;
+    longest = std::max(longest, (later->first - std::prev(later)->first).toSec());
+  }
+  return longest;
+}
+
 std::map<ros::Time, int> indexByStamp(const std::string& bag, const std::string& topic) {
   std::map<ros::Time, int> index_of;
   BagTopic images(bag, topic, kImageTypes);
@@ -145,7 +155,7 @@ std::map<ros::Time, int> indexByStamp(const std::string& bag, const std::string&
   return index_of;
 }
 
-void requireStamps(const std::string& bag, const std::string& topic) {
+std::map<ros::Time, int> indexByOwnStamps(const std::string& bag, const std::string& topic) {
   const auto refuse = [&](int index, const std::string& reason) {
     throw std::invalid_argument(
         bag + ": frame " + std::to_string(index) + " of " + topic + " " + reason +
@@ -163,6 +173,7 @@ void requireStamps(const std::string& bag, const std::string& topic) {
     }
     ++index;
   }
+  return index_of;
 }
 
 }  // namespace chain_tracker

@@ -27,8 +27,12 @@ std::vector<std::string> checkBag(const std::string& bag, const std::string& top
 /// Throws as above.
 std::map<ros::Time, int> indexByStamp(const std::string& bag, const std::string& topic);
 
-/// Throws std::invalid_argument naming the bag if what a live tracker publishes cannot be told by
-/// the image's stamp: where an image has none, or that of another one. Throws as above, too.
-void requireStamps(const std::string& bag, const std::string& topic);
+/// The same of the images that can be read. Throws std::invalid_argument naming the bag if what a
+/// live tracker publishes cannot be told by the image's stamp: where an image has none, or that of
+/// another one. Throws as above, too.
+std::map<ros::Time, int> indexByOwnStamps(const std::string& bag, const std::string& topic);
+
+/// Between two images [s]; 0 if there is at most one.
+double longestPause(const std::map<ros::Time, int>& index_of);
 
 }  // namespace chain_tracker

@@ -70,6 +70,7 @@ std::vector<std::string> commandOf(const std::string& program, const std::string
   if (job.max_frames > 0) {
     command.insert(command.end(), {"--max-frames", std::to_string(job.max_frames)});
   }
+  command.insert(command.end(), {"--threads", std::to_string(job.threads)});
   if (job.grey) command.emplace_back("--grey");
   if (job.video) command.emplace_back("--video");
   if (!job.report) command.emplace_back("--no-report");
