@@ -74,6 +74,7 @@ std::string autoModelName(const std::vector<cv::Point2d>& points) {
 
 ChainModel withRoomForParts(const ChainModel& model, const std::vector<cv::Point2d>& points) {
   ChainModel roomy = forPolyline(model, points.size());
+  layOut(roomy, points);  // refuses points that are not those of the model
   for (std::size_t m = 0; m < roomy.segments.size(); ++m) {
     SegmentModel& segment = roomy.segments[m];
     if (segment.layout != Layout::kDeformable) continue;

@@ -6,7 +6,7 @@
 
 namespace chain_tracker {
 
-/// Costs above `onset` rise by `slope`, in (0, 1], from there on: what does not look like a part
+/// Costs above `onset` rise by `slope`, in [0, 1], from there on: what does not look like a part
 /// anyway shall not pull it about. Negative onsets count as 0. O(states).
 void softenCosts(double onset, double slope, cv::Mat1f& costs);
 

@@ -82,11 +82,14 @@ void scorePoints(const TrackedFrame& tracked, const std::map<int, TruePoint>& tr
   }
 }
 
-cv::Rect2d pointBox(const TrackedFrame& tracked) {
-  if (tracked.points.empty()) return tracked.box;
+/// Of the points that the truth sees: its own box is that of these.
+cv::Rect2d pointBox(const TrackedFrame& tracked, const std::map<int, TruePoint>& truth) {
   std::vector<cv::Point2d> points;
-  for (const CarriedPoint& point : tracked.points) points.push_back(point.position);
-  return boxAround(points);
+  for (const auto& [index, point] : truth) {
+    const auto k = static_cast<std::size_t>(index);
+    if (point.visible && k < tracked.points.size()) points.push_back(tracked.points[k].position);
+  }
+  return points.empty() ? tracked.box : boxAround(points);
 }
 
 std::string nameOf(const SourceFrame& frame) { return "frame " + std::to_string(frame.index); }
@@ -131,10 +134,14 @@ std::size_t pointsCarriedIn(const std::map<int, RecordedFrame>& recording) {
   return count;
 }
 
-TrackedFrame nothingKnown() {
+/// Of what a tracker that has failed says: it carries as many points as before, all of them lost.
+TrackedFrame nothingKnown(const TrackerRun& run) {
   TrackedFrame frame;
   frame.state = "LOST";
   frame.lost = true;
+  if (run.frames.empty()) return frame;
+  frame.points = run.frames.front().tracked.points;
+  for (CarriedPoint& point : frame.points) point.confidence = 0.0;
   return frame;
 }
 
@@ -145,9 +152,10 @@ void process(EvaluatedTracker& tracker, const SourceFrame& frame, bool must_succ
   EvaluatedFrame evaluated;
   evaluated.index = frame.index;
   const bool first = run.frames.empty();
-  evaluated.tracked = nothingKnown();
+  evaluated.tracked = nothingKnown(run);
+  evaluated.was_asked = run.fault.empty();
   evaluated.time_ms = timed([&] {
-    if (!run.fault.empty()) return;
+    if (!evaluated.was_asked) return;
     try {
       evaluated.tracked = first ? tracker.start(frame.image) : tracker.update(frame.image);
     } catch (const std::exception& error) {
@@ -164,7 +172,8 @@ Scores scoresOf(const TrackerRun& run, double object_length) {
   std::vector<double> times;
   for (const EvaluatedFrame& frame : run.frames) {
     scores.push_back(frame.score);
-    if (frame.index != run.frames.front().index) times.push_back(frame.time_ms);
+    const bool is_start = frame.index == run.frames.front().index;
+    if (frame.was_asked && !is_start) times.push_back(frame.time_ms);
   }
   return summarize(scores, object_length, times);
 }
@@ -198,7 +207,7 @@ FrameScore scoreFrame(const TrackedFrame& tracked, const GroundTruth& truth, int
     score.has_absence = !box->second;
   } else if (points != truth.points.end()) {
     if (const auto around = boxOf(points->second)) {
-      scoreBox(pointBox(tracked), *around, tracked.lost, score);
+      scoreBox(pointBox(tracked, points->second), *around, tracked.lost, score);
     }
   }
   return score;
@@ -249,7 +258,7 @@ EvaluationResult scoreRecording(FrameSource& frames, const std::map<int, Recorde
     }
     const auto& [time_ms, tracked] = recorded->second;
     result.runs.front().frames.push_back(
-        {frame.index, time_ms, tracked, scoreFrame(tracked, scorable, frame.index)});
+        {frame.index, time_ms, true, tracked, scoreFrame(tracked, scorable, frame.index)});
     if (options.observer) options.observer(frame, tracked);
   });
   finish(objectLength(start, truth.points.empty()), result);

@@ -192,12 +192,23 @@ std::vector<cv::Point2d> shapeAt(int frame, const GroundTruth& truth) {
   return count > 0 ? partsAt(frame, count, truth) : boxAt(frame, truth);
 }
 
+/// With all parts, all of them seen where there is such a frame: where one is hidden it may have
+/// been guessed, or be no place at all.
+std::optional<int> firstFrameWithParts(const GroundTruth& truth, std::size_t count) {
+  std::optional<int> first;
+  for (const auto& [frame, points] : truth.points) {
+    if (points.size() != count) continue;
+    const bool are_seen = std::all_of(points.begin(), points.end(),
+                                      [](const auto& entry) { return entry.second.visible; });
+    if (are_seen) return frame;
+    if (!first) first = frame;
+  }
+  return first;
+}
+
 std::optional<int> firstKnownFrame(const GroundTruth& truth) {
   const std::size_t count = partCount(truth);
-  for (const auto& [frame, points] : truth.points) {
-    if (points.size() == count) return frame;
-  }
-  if (count > 0) return std::nullopt;
+  if (count > 0) return firstFrameWithParts(truth, count);
   for (const auto& [frame, box] : truth.boxes) {
     if (box) return frame;
   }

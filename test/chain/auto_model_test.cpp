@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/chain/auto_model.h"
 
+#include <stdexcept>
+
 #include <gtest/gtest.h>
 
 #include "chain_tracker/chain/chain_layout.h"
@@ -52,6 +54,13 @@ TEST(WithRoomForParts, keepsPartsOfEachLinkLargeEnough) {
   EXPECT_GT(12, fewer.segments[0].parts);
   EXPECT_EQ(12, fewer.segments[1].parts);
   EXPECT_TRUE(havePartsRoom(layOut(fewer, joints), {320, 240}));
+}
+
+TEST(WithRoomForParts, refusesPointsThatAreNotThoseOfTheLinks) {
+  ChainModel model = cable(20);
+  model.segments.push_back(model.segments.front());
+  model.joints.resize(1);
+  EXPECT_THROW(withRoomForParts(model, {{0, 0}, {60, 0}}), std::invalid_argument);
 }
 
 TEST(WithRoomForParts, givesEachDeformableLinkThePartsOfItsOwnLength) {

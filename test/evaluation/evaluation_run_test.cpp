@@ -259,6 +259,27 @@ TEST(EvaluationRun, AnInterruptedRunKeepsItsFrames) {
   EXPECT_TRUE(std::isnan(none.runs.front().scores.mean_iou));
 }
 
+TEST(EvaluationRun, ATrackerThatFailsHasLostItsPoints) {
+  GroundTruth truth;
+  for (const int frame : {0, 1, 2, 3})
+    truth.points[frame] = {{0, {{0, 5}, true}}, {1, {{10, 5}, true}}};
+  const auto result = run(FakeSource(4), only({at(0.0), at(0.0), std::nullopt}), truth, {}, kEnds);
+  const TrackerRun& failed = result.runs.front();
+  EXPECT_DOUBLE_EQ(failed.scores.pck_10, 0.5);
+  EXPECT_TRUE(failed.frames[2].was_asked);
+  EXPECT_FALSE(failed.frames[3].was_asked);
+  const double both = failed.frames[1].time_ms + failed.frames[2].time_ms;
+  EXPECT_NEAR(failed.scores.fps, 2000.0 / both, 1e-6 * failed.scores.fps);
+}
+
+TEST(EvaluationRun, BoxesOfPointsAreOfThoseThatTheTruthSees) {
+  GroundTruth truth;
+  truth.points[0] = {{0, {{0, 5}, true}}, {1, {{10, 5}, true}}, {2, {{-1, -1}, false}}};
+  TrackedFrame tracked = at(0.0);
+  tracked.points.push_back({{90.0, 70.0}, 1.0, true});
+  EXPECT_DOUBLE_EQ(scoreFrame(tracked, truth, 0).overlap, 1.0);
+}
+
 TEST(EvaluationRun, ATrackerThatFailsHasLostTheObjectForGood) {
   Trackers trackers = only({at(0.0), at(0.0), at(0.0), at(0.0)});
   trackers.push_back(std::make_unique<FakeTracker>(

@@ -231,6 +231,15 @@ TEST_F(GroundTruthFiles, PartsStartInTheFirstFrameThatHasThemAll) {
   EXPECT_FALSE(readStart(folder_.string(), truth)) << "corners are no parts";
 }
 
+TEST_F(GroundTruthFiles, PartsStartWhereAllAreSeenIfTheyEverAre) {
+  const auto start = readStart(
+      folder_.string(), pointsIn("frame,part,x,y,visible\n0,0,1,1,1\n0,1,-1,-1,0\n1,0,2,2,1\n"
+                                 "1,1,3,3,1\n2,0,4,4,1\n2,1,5,5,1\n"));
+  ASSERT_TRUE(start);
+  EXPECT_EQ(start->first_frame, 1);
+  EXPECT_EQ(start->points, (std::vector<cv::Point2d>{{2, 2}, {3, 3}}));
+}
+
 TEST_F(GroundTruthFiles, InitWithoutPointsLeavesThemToTheTruth) {
   write("init.yaml", "model: cable\n");
   const auto start = readStart(folder_.string(), boxesIn("1,2,30,40\n"));

@@ -61,12 +61,13 @@ struct StepTimes {
 struct ChainState {
   TrackingStatus status = TrackingStatus::kInitializing;
   double confidence = 0.0;  ///< [0, 1]: as of a segment, over all parts
-  double energy = 0.0;      ///< E of thesis ch. 3.2 at the solution; smaller is better
+  double energy = 0.0;      ///< E of thesis ch. 3.2 on the finest grid searched; smaller is better
   std::vector<PartState> parts;
   std::vector<SegmentState> segments;
   std::vector<CarriedPoint> points;  ///< in the order given at initialisation
-  std::vector<cv::Point2d> outline;  ///< see CarriedShape::outline() and ObjectShape::carry() [px]
-  cv::Rect2d box;                    ///< upright [px]; see the same
+  std::vector<cv::Point2d>
+      outline;     ///< see CarriedShape::addOutline() and ObjectShape::carry() [px]
+  cv::Rect2d box;  ///< upright [px]; see the same
   StepTimes times;
 };
 

@@ -17,8 +17,9 @@ namespace chain_tracker {
 
 /// What a tracker reported of a frame, and what that is worth.
 struct EvaluatedFrame {
-  int index = 0;         ///< in the source's order
-  double time_ms = 0.0;  ///< of the update; of the initialisation in the first frame
+  int index = 0;          ///< in the source's order
+  double time_ms = 0.0;   ///< of the update; of the initialisation in the first frame
+  bool was_asked = true;  ///< false once the tracker has failed
   TrackedFrame tracked;
   FrameScore score;
 };
