@@ -18,8 +18,9 @@ constexpr double kLeastSeen = 0.5;
 constexpr double kNoise = 2.0;
 
 constexpr double kUnit = ChannelGains::kUnit;
-constexpr double kLeastGain = ChannelGains::kLeast / kUnit;
-constexpr double kMostGain = ChannelGains::kMost / kUnit;
+/// Changes are remembered farther than they can be undone: back again is where they came from.
+constexpr double kMostGain = 8.0;
+constexpr double kLeastGain = 1.0 / kMostGain;
 
 bool canTell(const ObjectColor& learned, const ObjectColor& seen) {
   return learned.share >= kLeastShare && seen.share >= kLeastSeen * learned.share;
@@ -51,7 +52,8 @@ void LightChange::jump(const cv::Vec3d& ratios) {
 ChannelGains LightChange::gains() const {
   ChannelGains gains;
   for (size_t c = 0; c < gains_.size(); ++c) {
-    gains.steps[c] = static_cast<int>(std::lround(gains_[c] * kUnit));
+    gains.steps[c] = std::clamp(static_cast<int>(std::lround(gains_[c] * kUnit)),
+                                ChannelGains::kLeast, ChannelGains::kMost);
   }
   return gains;
 }

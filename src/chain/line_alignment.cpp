@@ -42,6 +42,10 @@ double farthestSeen(const ChainState& line, const ChainState& other) {
   return farthest;
 }
 
+cv::Point2d nearestIn(const cv::Rect2d& image, const cv::Point2d& point) {
+  return {std::clamp(point.x, image.x, image.br().x), std::clamp(point.y, image.y, image.br().y)};
+}
+
 }  // namespace
 
 LineAlignment::LineAlignment(const SegmentLayout& line, const AppearanceModel& model,
@@ -85,7 +89,9 @@ CellMap LineAlignment::cellsAlong(double side) const {
   const double beyond = kMapBeyond * length_;
   std::vector<cv::Point2d> way = stretch_;
   for (const double place : {-beyond, seen_ + beyond}) way.push_back(pointAlong(stretch_, place));
-  const cv::Rect2d bounds = uprightBounds(way) & image_;
+  // Not by an intersection, which is nothing where the way is level or upright.
+  const cv::Rect2d around = uprightBounds(way);
+  const cv::Rect2d bounds(nearestIn(image_, around.tl()), nearestIn(image_, around.br()));
   const double span = std::max(bounds.width, bounds.height);
   CellMap cells;
   cells.first = bounds.tl();

@@ -2,14 +2,16 @@
 #include "past_views.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace chain_tracker {
 namespace {
 
 /// Calls from one view to the next.
 constexpr int kCallsPerView = 5;
-/// Mean difference of the channels in a window that still shows the same: noise [grey levels].
-constexpr double kSame = 12.0;
+/// Root mean square difference of the channels in a window that still shows the same: noise [grey
+/// levels]. Squares, as what is thin differs from the ground in few pixels, but by much.
+constexpr double kSame = 15.0;
 /// Of a part's window, that is compared: its border may show something else.
 constexpr double kMiddle = 0.7;
 /// Share of a chain's parts.
@@ -30,7 +32,7 @@ cv::Rect middleOf(const PartState& part) {
 bool areSame(const cv::Mat& a, const cv::Mat& b, const cv::Rect& window) {
   if (window.empty()) return false;
   const double values = static_cast<double>(window.area()) * a.channels();
-  return cv::norm(a(window), b(window), cv::NORM_L1) <= kSame * values;
+  return cv::norm(a(window), b(window), cv::NORM_L2) <= kSame * std::sqrt(values);
 }
 
 }  // namespace
@@ -43,15 +45,20 @@ void PastViews::remember(const cv::Mat& image, const ChainState& object) {
 }
 
 bool PastViews::showed(const ChainState& chain, const cv::Mat& image) const {
-  return shows(first_, chain, image) || shows(latest_, chain, image);
+  // Where it was at first for certain, and looks as it did: there it stands again.
+  if (shows(first_, true, chain, image)) return false;
+  return shows(first_, false, chain, image) || shows(latest_, false, chain, image);
 }
 
-bool PastViews::shows(const View& view, const ChainState& chain, const cv::Mat& image) {
+/// `as_object`: what the object covered then, else what lay beside it.
+bool PastViews::shows(const View& view, bool as_object, const ChainState& chain,
+                      const cv::Mat& image) {
   if (view.image.empty()) return false;
   const cv::Rect bounds(cv::Point(), image.size());
   const auto standing =
       std::count_if(chain.parts.begin(), chain.parts.end(), [&](const PartState& part) {
-        return isAway(part, view.object) && areSame(image, view.image, middleOf(part) & bounds);
+        return isAway(part, view.object) != as_object &&
+               areSame(image, view.image, middleOf(part) & bounds);
       });
   return static_cast<double>(standing) >= kMost * static_cast<double>(chain.parts.size());
 }

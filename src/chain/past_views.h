@@ -17,7 +17,8 @@ class PastViews {
   void remember(const cv::Mat& image, const ChainState& object);
 
   /// Whether most of the parts of `chain` lie where `image` shows what it showed in one of the
-  /// views kept, while the object was elsewhere. O(parts * (parts + pixels of a part)).
+  /// views kept, while the object was elsewhere; not where it was itself in the first one, if that
+  /// shows again. O(parts * (parts + pixels of a part)).
   bool showed(const ChainState& chain, const cv::Mat& image) const;
 
  private:
@@ -26,7 +27,8 @@ class PastViews {
     ChainState object;
   };
 
-  static bool shows(const View& view, const ChainState& chain, const cv::Mat& image);
+  static bool shows(const View& view, bool as_object, const ChainState& chain,
+                    const cv::Mat& image);
 
   View first_;
   View latest_;

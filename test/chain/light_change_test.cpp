@@ -74,6 +74,14 @@ TEST(LightChange, isNotToldByTwoParts) {
   expectGains({1, 1, 1}, settled({}, {}));
 }
 
+TEST(LightChange, thatIsTooLargeToBeUndoneEndsWhereItBegan) {
+  LightChange light(0.3);
+  light.jump({0.3, 3.0, 0.9});
+  expectGains({2, 0.5, 1.11}, light.gains());
+  light.jump({1.0 / 0.3, 1.0 / 3.0, 1.0 / 0.9});
+  expectGains({1, 1, 1}, light.gains());
+}
+
 TEST(LightChange, isBounded) {
   expectGains({2, 2, 2}, settled(partsOf({250, 250, 250}), partsOf({0, 0, 1})));
   expectGains({0.5, 0.5, 0.5}, settled(partsOf({0, 0, 1}), partsOf({250, 250, 250})));

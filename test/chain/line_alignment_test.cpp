@@ -18,10 +18,12 @@ constexpr double kLength = 240.0;
 constexpr double kWidth = 8.0;
 constexpr double kPartLength = kLength / double(kParts - 1);
 
+constexpr double kSwing = 30.0;
+
 /// A winding line as wide as the image, on which an object lies [px].
-std::vector<cv::Point2d> winding() {
+std::vector<cv::Point2d> winding(double swing = kSwing) {
   std::vector<cv::Point2d> way;
-  for (int x = 10; x <= 490; x += 2) way.emplace_back(x, 100.0 + 30.0 * std::sin(x / 45.0));
+  for (int x = 10; x <= 490; x += 2) way.emplace_back(x, 100.0 + swing * std::sin(x / 45.0));
   return way;
 }
 
@@ -32,11 +34,11 @@ cv::Mat background() {
 }
 
 /// Draws marks of a few colours in no order, from `start` on along the line.
-cv::Mat drawn(double start, double scale) {
+cv::Mat drawn(double start, double scale, double swing = kSwing) {
   const std::vector<cv::Scalar> colors = {
       {40, 40, 220}, {40, 220, 40}, {220, 40, 40}, {30, 220, 220}};
   const std::vector<size_t> marks = {0, 1, 2, 1, 3, 0, 2, 2, 3, 1, 0, 3};
-  const std::vector<cv::Point2d> way = winding();
+  const std::vector<cv::Point2d> way = winding(swing);
   cv::Mat image = background();
   const double mark = scale * kLength / static_cast<double>(marks.size());
   for (int place = 0; place < scale * kLength; ++place) {
@@ -48,10 +50,10 @@ cv::Mat drawn(double start, double scale) {
 }
 
 /// Of a line from `start` on, at equal distances.
-std::vector<cv::Point2d> placesOf(double start, double scale) {
+std::vector<cv::Point2d> placesOf(double start, double scale, double swing = kSwing) {
   std::vector<cv::Point2d> points;
   for (size_t k = 0; k < kParts; ++k) {
-    points.push_back(pointAlong(winding(), start + scale * kPartLength * double(k)));
+    points.push_back(pointAlong(winding(swing), start + scale * kPartLength * double(k)));
   }
   return points;
 }
@@ -68,9 +70,10 @@ class Line {
  public:
   static constexpr double kStart = 60.0;
 
-  Line()
-      : layout_(layOut(lineModel(), placesOf(kStart, 1.0))),
-        appearance_(drawn(kStart, 1.0), layout_, lineModel().appearance),
+  explicit Line(double swing = kSwing)
+      : swing_(swing),
+        layout_(layOut(lineModel(), placesOf(kStart, 1.0, swing))),
+        appearance_(drawn(kStart, 1.0, swing), layout_, lineModel().appearance),
         alignment_(layout_.segments.front(), lineModel().appearance, background().size()) {}
 
   /// Along the drawn line from `start` on, all visible.
@@ -82,7 +85,7 @@ class Line {
     line.segments[0].part_count = static_cast<int>(kParts);
     line.segments[0].image_from_segment = segment.image_from_segment;
     line.segments[0].image_from_segment.scale = scale;
-    const std::vector<cv::Point2d> places = placesOf(start, scale);
+    const std::vector<cv::Point2d> places = placesOf(start, scale, swing_);
     for (size_t k = 0; k < kParts; ++k) {
       line.parts[k].position = places[k];
       line.parts[k].visible = true;
@@ -103,6 +106,7 @@ class Line {
   }
 
  private:
+  double swing_;
   ChainLayout layout_;
   ObjectAppearance appearance_;
   LineAlignment alignment_;
@@ -114,6 +118,14 @@ double largestError(const ChainState& line, const std::vector<cv::Point2d>& trut
     largest = std::max(largest, cv::norm(line.parts[k].position - truth[k]));
   }
   return largest;
+}
+
+TEST(LineAlignment, shiftsALineThatIsLevel) {
+  constexpr double kLevel = 0.0;
+  Line line(kLevel);
+  ChainState shifted = line.laid(Line::kStart + 3.0 * kPartLength, 1.0);
+  ASSERT_TRUE(line.align(drawn(Line::kStart, 1.0, kLevel), false, shifted));
+  EXPECT_LT(largestError(shifted, placesOf(Line::kStart, 1.0, kLevel)), kPartLength);
 }
 
 constexpr int kTurns = 4;

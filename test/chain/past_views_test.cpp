@@ -72,6 +72,23 @@ TEST_F(PastViewsTest, ATwinThatLooksOtherwiseTellsNothing) {
   EXPECT_FALSE(views_.showed(kTwin, 1.5 * with(kElsewhere, kTwin))) << "in another light";
 }
 
+TEST_F(PastViewsTest, TheObjectIsNotTakenForWhatStoodBesideAWrongOne) {
+  for (int i = 0; i < 20; ++i) views_.remember(with(kObject, kTwin), kTwin);
+  EXPECT_FALSE(views_.showed(kObject, with(kObject, kElsewhere)));
+}
+
+TEST_F(PastViewsTest, AThinLineIsToldFromTheGround) {
+  const auto line_at = [](double y) {
+    cv::Mat image = empty();
+    cv::line(image, {20, cvRound(y)}, {60, cvRound(y)}, kDark + cv::Scalar::all(60));
+    return image;
+  };
+  PastViews views;
+  views.remember(line_at(20), chainAt(20, 20));
+  EXPECT_FALSE(views.showed(chainAt(20, 80), line_at(80)));
+  EXPECT_TRUE(views.showed(chainAt(20, 80), line_at(20)));
+}
+
 TEST_F(PastViewsTest, MostOfTheChainHasToStandThere) {
   const ChainState moved = chainAt(20 + 2 * kSide, 80);  // three of its five parts lie on the twin
   EXPECT_TRUE(views_.showed(moved, with(kElsewhere, kTwin)));
