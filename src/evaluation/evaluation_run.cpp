@@ -141,7 +141,10 @@ TrackedFrame nothingKnown(const TrackerRun& run) {
   frame.lost = true;
   if (run.frames.empty()) return frame;
   frame.points = run.frames.front().tracked.points;
-  for (CarriedPoint& point : frame.points) point.confidence = 0.0;
+  for (CarriedPoint& point : frame.points) {
+    point.confidence = 0.0;
+    point.visible = false;
+  }
   return frame;
 }
 

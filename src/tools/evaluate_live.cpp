@@ -104,7 +104,7 @@ class ObjectsRecorder {
     if (count_ == 0) throw std::runtime_error("no message on " + subscriber_.getTopic());
     if (ros::ok() && !ended_) {
       std::cerr << "evaluate_live: no message on " << subscriber_.getTopic() << " for "
-                << idle_timeout_sec << " s before the last image's, the rest counts as dropped\n";
+                << idle_timeout_sec << " s though images are left, which count as dropped\n";
     }
     bag_.close();
   }
@@ -163,9 +163,8 @@ int main(int argc, char** argv) {
       "_id:=ID (object; default the first), _ground_truth:=FILE|TOPIC,\n"
       "_points:=x,y,... (where the tracker is started), _video:=true,\n"
       "_min_iou:=X, _rate:=1 (speed at which the bag is played),\n"
-      "_idle_timeout:=5 (ends so long after the last message [s]; at least twice the longest "
-      "pause\n"
-      "between images),\n"
+      "_idle_timeout:=5 (ends so long after the last message [s], but never before\n"
+      "twice the longest pause between two images),\n"
       "_first_timeout:=60 (gives up if none has come by then [s]).\n"
       "Exit codes: 0 scored, 1 the mean IoU is below ~min_iou, 2 bad input or no message.");
   try {

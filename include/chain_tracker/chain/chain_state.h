@@ -65,9 +65,8 @@ struct ChainState {
   std::vector<PartState> parts;
   std::vector<SegmentState> segments;
   std::vector<CarriedPoint> points;  ///< in the order given at initialisation
-  std::vector<cv::Point2d>
-      outline;     ///< see CarriedShape::addOutline() and ObjectShape::carry() [px]
-  cv::Rect2d box;  ///< upright [px]; see the same
+  std::vector<cv::Point2d> outline;  ///< [px]; see CarriedShape and ObjectShape::carry()
+  cv::Rect2d box;                    ///< upright [px]; see the same
   StepTimes times;
 };
 

@@ -112,8 +112,8 @@ class TargetRegistry {
   /// Answers all that wait under this id and takes them out; false if there are none.
   static bool refuseWaiting(const std::string& id, const std::string& reason,
                             std::vector<Waiting>* waiting);
-  /// False if the frame shows nothing there. Of `earlier`, which still wait, those of the same id
-  /// are refused otherwise.
+  /// False if the frame shows nothing there; else those of `earlier`, which still wait, are refused
+  /// that have the same id.
   bool tryToStart(const Frame& frame, const cv::Mat& image, Waiting& waiting,
                   std::vector<Waiting>* earlier);
   void startWaiting(const Frame& frame, const cv::Mat& image, FrameResult* result);
