@@ -42,6 +42,9 @@ void checkSegment(const SegmentModel& segment, const std::string& prefix, FaultL
   faults.requireRange(prefix + "aspect", segment.aspect, 0.001, 1.0);
   faults.requireRange(prefix + "margin", segment.margin, 0.0, 1.0);
   faults.requireRange(prefix + "window", segment.window, 0.2, 10.0);
+  if (segment.measure_window && segment.layout != Layout::kDeformable) {
+    faults.add(prefix + "measure_window is true, must be false unless layout is deformable");
+  }
   faults.requireRange(prefix + "stretch_sigma", segment.stretch_sigma, 0.005, 1.0);
   faults.requireRange(prefix + "bend_sigma", segment.bend_sigma, 0.005, 3.0);
   faults.requireRange(prefix + "shape_memory", segment.shape_memory, 0.0, 1.0);

@@ -128,6 +128,7 @@ void readSegment(const Reader& reader, SegmentModel& segment) {
                   {"measure_aspect", into(segment.measure_aspect)},
                   {"margin", into(segment.margin)},
                   {"window", into(segment.window)},
+                  {"measure_window", into(segment.measure_window)},
                   {"stretch_sigma", into(segment.stretch_sigma)},
                   {"bend_sigma", into(segment.bend_sigma)},
                   {"shape_memory", into(segment.shape_memory)},

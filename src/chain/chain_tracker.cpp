@@ -10,6 +10,7 @@
 #include "chain_tracker/chain/link_width.h"
 #include "chain_tracker/chain/object_shape.h"
 #include "chain_tracker/chain/target_checks.h"
+#include "line_width.h"
 #include "second_look.h"
 #include "stopwatch.h"
 
@@ -70,7 +71,8 @@ class ChainTracker::Implementation {
     requireModel(expanded);
     const ChainLayout layout = checked(layOut(expanded, points), image.size());
     requireContrast(image, layout.silhouette);
-    ChainModel measured = withMeasuredAspects(expanded, image, points);
+    const ChainModel wide = withMeasuredAspects(expanded, image, points);
+    const ChainModel measured = withMeasuredWindows(wide, image, points);
     return havePartsRoom(layOut(measured, points), image.size()) ? measured : expanded;
   }
 

@@ -43,6 +43,7 @@ segments:
     measure_aspect: true
     margin: 0.03
     window: 1.5
+    measure_window: true
     stretch_sigma: 0.06
     bend_sigma: 0.25
     shape_memory: 0.75
@@ -87,6 +88,7 @@ ChainModel everyKeyModel() {
   segment.measure_aspect = true;
   segment.margin = 0.03;
   segment.window = 1.5;
+  segment.measure_window = true;
   segment.stretch_sigma = 0.06;
   segment.bend_sigma = 0.25;
   segment.shape_memory = 0.75;
@@ -126,7 +128,7 @@ TEST(ParseChainModel, noKeyIsUntested) {
       ++keys;
     }
   }
-  EXPECT_EQ(40U, keys);
+  EXPECT_EQ(41U, keys);
 }
 
 TEST(ParseChainModel, keysLeftOutKeepTheirDefaults) {
@@ -267,6 +269,7 @@ TEST(ShippedModels, cableBendsAndIsSearchedUnderOnePose) {
   segment.parts = 48;
   segment.aspect = 0.01;
   segment.window = 1.0;
+  segment.measure_window = true;
   segment.orientation_hypotheses = 1;
   segment.scale_hypotheses = 1;
   expected.appearance.light_rate = 0.0;

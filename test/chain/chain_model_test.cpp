@@ -216,6 +216,15 @@ TEST(FaultsOf, onlyLinesCanBeJoined) {
   EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"segments[1]/layout", "points", "elongated"}));
 }
 
+TEST(FaultsOf, onlyDeformableSegmentsHaveTheirWindowsMeasured) {
+  ChainModel model;
+  model.segments[0].measure_window = true;
+  ASSERT_EQ(1U, faultsOf(model).size());
+  EXPECT_EQ("", omissionsOf(faultsOf(model)[0], {"segments[0]/measure_window", "deformable"}));
+  model.segments[0].layout = Layout::kDeformable;
+  EXPECT_TRUE(faultsOf(model).empty());
+}
+
 TEST(FaultsOf, foundMustNotBeBelowLost) {
   ChainModel model;
   model.search.lost_below = model.search.found_above = 0.3;

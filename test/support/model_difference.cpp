@@ -23,6 +23,7 @@ class Differences {
     compare(prefix + "aspect", expected.aspect, actual.aspect);
     compare(prefix + "measure_aspect", expected.measure_aspect, actual.measure_aspect);
     compare(prefix + "window", expected.window, actual.window);
+    compare(prefix + "measure_window", expected.measure_window, actual.measure_window);
     compare(prefix + "stretch_sigma", expected.stretch_sigma, actual.stretch_sigma);
     compare(prefix + "bend_sigma", expected.bend_sigma, actual.bend_sigma);
     compare(prefix + "shape_memory", expected.shape_memory, actual.shape_memory);

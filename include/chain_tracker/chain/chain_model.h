@@ -38,6 +38,9 @@ struct SegmentModel {
   /// How far a grid of cells reaches beyond the outline, so that windows straddle it: fraction of
   /// the square root of the area. Means nothing to a deformable segment.
   double margin = 0.1;
+  /// The first image decides on the windows of a deformable segment, and on how many parts they
+  /// leave room for, if what it lies on is thicker than they are; see line_width.h.
+  bool measure_window = false;
   double window = 1.15;         ///< window side over cell side, or over the step along the polyline
   double stretch_sigma = 0.05;  ///< standard deviation of an edge's length, fraction of the length
   /// Standard deviation of an edge's angular displacement [rad]: from the shape laid out; of a
