@@ -27,6 +27,11 @@ constexpr double kBetterLine = 0.05;
 /// The same where all segments hang otherwise; where some do, their share of it, up to
 /// kClearlyBetter.
 constexpr double kBetterSegment = 0.3;
+/// So far, of its extent, from where an object in doubt is taken to be lies another place, which
+/// has to look like the object by so much of the usual likeness. An object that looks less and less
+/// like itself is still where it is rather than where something looks a little more like it.
+constexpr double kElsewhere = 0.7;
+constexpr double kKnown = 0.6;
 /// Of an object in doubt, to each side, at least [rad].
 constexpr double kLeastTurn = 0.4;
 /// Of the usual likeness: a state that is trusted to be right, by which it is looked for later.
@@ -102,7 +107,7 @@ void SecondLook::lookElsewhere(const ChainState& before, FoundChain& found) {
   if (frames_doubted_ == 1) {
     for (const int side : {-1, 1}) preferBetter(turned(side, before), found);
   } else if (frames_doubted_ % kFramesPerLook == 0) {
-    preferBetter(look(frames_doubted_ / kFramesPerLook, kWidestInDoubt), found);
+    preferLook(look(frames_doubted_ / kFramesPerLook, kWidestInDoubt), found);
   } else if (is_open_line_) {
     FoundChain aligned = found;
     if (align(aligned)) preferBetter(refitted(std::move(aligned)), found);
@@ -143,6 +148,13 @@ void SecondLook::preferBetter(FoundChain other, double gain, FoundChain& found) 
   const bool is_sure = other.state.confidence >= model_.search.found_above;
   const bool is_better = other.expected_likeness > found.expected_likeness + gain;
   if (is_sure && is_better && !past_views_.showed(other.state, image_)) found = std::move(other);
+}
+
+void SecondLook::preferLook(FoundChain other, FoundChain& found) const {
+  const double way = cv::norm(middleOf(other.state) - middleOf(found.state));
+  const bool is_elsewhere = way > kElsewhere * extentOf(trusted_);
+  const double known = kKnown * search_.expectations().usualLikeness();
+  if (!is_elsewhere || other.expected_likeness >= known) preferBetter(std::move(other), found);
 }
 
 /// Of a search that has failed so often [px]: twice as far every time, up to `widest`.

@@ -50,6 +50,7 @@ class SecondLook {
   /// A line that was in doubt stays so for longer.
   bool isDoubtful(const FoundChain& found) const;
   void preferBetter(FoundChain other, FoundChain& found) const;
+  void preferLook(FoundChain other, FoundChain& found) const;
   void preferBetter(FoundChain other, double gain, FoundChain& found) const;
   double reach(int failures, double widest) const;
   FoundChain find(const ChainState& sought, const SearchRange& range);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "state_motion.h"
 
+#include <cmath>
+#include <vector>
+
+#include "chain_tracker/image/pixel_geometry.h"
+
 namespace chain_tracker {
-namespace {
 
 cv::Point2d middleOf(const ChainState& state) {
   cv::Point2d middle;
@@ -12,7 +16,20 @@ cv::Point2d middleOf(const ChainState& state) {
   return middle;
 }
 
-}  // namespace
+double extentOf(const ChainState& state) {
+  double extent = 0.0;
+  std::vector<cv::Point2d> centers;
+  for (const SegmentState& segment : state.segments) {
+    const auto first = state.parts.begin() + segment.first_part;
+    centers.clear();
+    for (auto part = first; part != first + segment.part_count; ++part) {
+      centers.push_back(part->position);
+    }
+    const cv::Rect2d bounds = uprightBounds(centers);
+    extent += std::hypot(bounds.width, bounds.height);
+  }
+  return extent;
+}
 
 Similarity rigidMotion(double angle, const cv::Point2d& center, const cv::Point2d& target) {
   return {angle, 1.0, target - Similarity{angle, 1.0, {}}.apply(center)};

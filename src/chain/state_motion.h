@@ -12,6 +12,13 @@ Similarity rigidMotion(double angle, const cv::Point2d& center, const cv::Point2
 
 void moveSegment(const Similarity& motion, size_t segment, ChainState& state);
 
+/// Mean of its parts [px].
+cv::Point2d middleOf(const ChainState& state);
+
+/// From end to end [px] if its segments were in line: the sum of the diagonals of what their parts
+/// bound.
+double extentOf(const ChainState& state);
+
 /// About the mean of its parts [rad].
 void turnWhole(double angle, ChainState& state);
 

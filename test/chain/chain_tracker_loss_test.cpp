@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "chain_tracker/chain/chain_model_io.h"
 #include "chain_tracker/chain/chain_tracker.h"
@@ -120,6 +121,29 @@ cv::Mat wideImage(const DrawnBox& box, int place) {
   cv::Mat wide;
   cv::hconcat(images, wide);
   return wide;
+}
+
+/// The box blurs more and more. Then most of another one that looks as it did comes into sight.
+TEST(ChainTrackerLoss, whatChangesItsLookStaysWhereItIs) {
+  const DrawnBox box;
+  ChainTracker tracker = startTracker(box);
+  cv::Mat image;
+  for (int frame = 1; frame <= 30; ++frame) {
+    cv::Mat blurred;
+    cv::blur(box.image(kStart), blurred, {45, 45});
+    const double share = 0.8 * frame / 30.0;
+    image = (1.0 - share) * box.image(kStart) + share * blurred;
+    tracker.update(image);
+  }
+  const Similarity there{0.0, 1.0, kStart.translation + cv::Point2d(100.0, 60.0)};
+  const cv::Rect most(cv::Point(DrawnBox::corners(there)[0]),
+                      cv::Size2d(0.8 * DrawnBox::kLength, DrawnBox::kWidth));
+  box.image(there)(most).copyTo(image(most));
+  for (int frame = 1; frame <= 20; ++frame) {
+    const ChainState& state = tracker.update(image);
+    ASSERT_NE(TrackingStatus::kLost, state.status);
+    ASSERT_LT(largestError(state, kStart), 10.0) << "after " << frame << " frames";
+  }
 }
 
 TEST(ChainTrackerLoss, boxShownAgainAtTheOtherEndOfTheImageIsFound) {

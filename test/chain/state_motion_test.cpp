@@ -22,6 +22,15 @@ ChainState someState() {
   return state;
 }
 
+TEST(MiddleOf, isTheMeanOfTheParts) { EXPECT_EQ(cv::Point2d(20.0, 30.0), middleOf(someState())); }
+
+TEST(ExtentOf, addsTheSegments) {
+  ChainState state = someState();
+  EXPECT_NEAR(20.0 + 20.0, extentOf(state), 1e-9);
+  state.parts[3].position = {30.0, 61.0};
+  EXPECT_NEAR(20.0 + 29.0, extentOf(state), 1e-9);
+}
+
 TEST(RigidMotion, takesItsCentreToItsTarget) {
   const Similarity motion = rigidMotion(CV_PI / 2.0, {3.0, 4.0}, {10.0, 20.0});
   EXPECT_NEAR(0.0, cv::norm(motion.apply({3.0, 4.0}) - cv::Point2d(10.0, 20.0)), 1e-9);
