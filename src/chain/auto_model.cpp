@@ -42,14 +42,6 @@ bool isSharpEverywhere(const std::vector<cv::Point2d>& points) {
   return true;
 }
 
-double lengthOf(const std::vector<cv::Point2d>& polyline) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    length += cv::norm(polyline[i] - polyline[i - 1]);
-  }
-  return length;
-}
-
 /// Takes a part from every grid whose parts are too small; returns whether there was one.
 bool takeCrowdedParts(ChainModel& model, const std::vector<cv::Point2d>& points) {
   const ChainLayout layout = layOut(model, points);

@@ -148,12 +148,6 @@ SegmentLayout layOutRectangle(const SegmentModel& model, const std::vector<cv::P
   return segment;
 }
 
-double lengthOf(const std::vector<cv::Point2d>& polyline) {
-  double length = 0.0;
-  for (size_t i = 1; i < polyline.size(); ++i) length += cv::norm(polyline[i] - polyline[i - 1]);
-  return length;
-}
-
 /// `count` points in equal steps of arc length from the first point to the last.
 std::vector<cv::Point2d> resample(const std::vector<cv::Point2d>& polyline, int count) {
   const double step = lengthOf(polyline) / (count - 1);

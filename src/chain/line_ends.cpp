@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "chain_tracker/image/pixel_geometry.h"
 #include "line_motion.h"
 
 namespace chain_tracker {

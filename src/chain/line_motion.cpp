@@ -57,12 +57,6 @@ void takeSeenStretch(const ChainState& line, std::vector<cv::Point2d>& stretch) 
   }
 }
 
-double lengthOf(const std::vector<cv::Point2d>& polyline) {
-  double length = 0.0;
-  for (size_t k = 1; k < polyline.size(); ++k) length += cv::norm(polyline[k] - polyline[k - 1]);
-  return length;
-}
-
 cv::Point2d pointAlong(const std::vector<cv::Point2d>& way, double place) {
   const size_t steps = std::min<size_t>(kEndSteps, way.size() - 1);
   if (place < 0.0) return way.front() + place * directionOf(way.front(), way[steps]);

@@ -19,9 +19,6 @@ void slide(int places, ChainState& line);
 /// that zigzag across a thick line do not make it longer; none if no part is visible.
 void takeSeenStretch(const ChainState& line, std::vector<cv::Point2d>& stretch);
 
-/// Of a polyline [px].
-double lengthOf(const std::vector<cv::Point2d>& polyline);
-
 /// `place` [px] along `way`, a polyline of at least two points; straight on beyond either end.
 /// O(points).
 cv::Point2d pointAlong(const std::vector<cv::Point2d>& way, double place);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chain_tracker/image/pixel_geometry.h"
 #include "stroke_reach.h"
 
 namespace chain_tracker {
@@ -27,12 +28,6 @@ constexpr double kWindow = 0.65;
 /// Windows overlap: steps of the line to a window.
 constexpr double kSteps = 2.0;
 constexpr int kFewestParts = 6;
-
-double lengthOf(const Polyline& polyline) {
-  double length = 0.0;
-  for (size_t i = 1; i < polyline.size(); ++i) length += cv::norm(polyline[i] - polyline[i - 1]);
-  return length;
-}
 
 std::vector<StrokeSample> samplesAlong(const Polyline& polyline, double length) {
   std::vector<StrokeSample> samples;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chain_tracker/image/pixel_geometry.h"
 #include "stroke_reach.h"
 
 namespace chain_tracker {
@@ -27,12 +28,6 @@ constexpr double kCovered = 0.85;
 /// The aspects that cells cover well.
 constexpr double kNarrowestAspect = 0.14;
 constexpr double kWidestAspect = 0.5;
-
-double meanEdgeLength(const std::vector<cv::Point2d>& polyline) {
-  double length = 0.0;
-  for (size_t i = 1; i < polyline.size(); ++i) length += cv::norm(polyline[i] - polyline[i - 1]);
-  return length / static_cast<double>(polyline.size() - 1);
-}
 
 /// Fractions of the lengths of the edges.
 std::vector<StrokeReach> reachesOf(const cv::Mat1b& colors,
@@ -67,7 +62,7 @@ double commonWidth(const std::vector<StrokeReach>& reaches) {
 }  // namespace
 
 std::vector<double> measureAspects(const cv::Mat& image, const std::vector<cv::Point2d>& polyline) {
-  const double length = meanEdgeLength(polyline);
+  const double length = lengthOf(polyline) / static_cast<double>(polyline.size() - 1);
   const cv::Mat1b colors = axisColors(
       image, polyline, {0.5 * kAxisWidth * length, kRingStart * length, kRingEnd * length});
   const std::vector<StrokeReach> reaches = reachesOf(colors, polyline);

@@ -40,4 +40,10 @@ cv::Rect2d uprightBounds(const std::vector<cv::Point2d>& points) {
   return {low, high};
 }
 
+double lengthOf(const std::vector<cv::Point2d>& polyline) {
+  double length = 0.0;
+  for (size_t i = 1; i < polyline.size(); ++i) length += cv::norm(polyline[i] - polyline[i - 1]);
+  return length;
+}
+
 }  // namespace chain_tracker

@@ -53,8 +53,7 @@ SceneOptions growing(unsigned seed) {
   return options;
 }
 
-/// Largest distance of two points.
-double lengthOf(const std::vector<cv::Point2d>& points) {
+double largestDistance(const std::vector<cv::Point2d>& points) {
   double length = 0.0;
   for (const cv::Point2d& a : points) {
     for (const cv::Point2d& b : points) length = std::max(length, cv::norm(a - b));
@@ -81,7 +80,7 @@ double pckOf(const std::string& scene_name, const SceneOptions& options) {
                                : cv::norm(state.points[k].position - frame.points[k]));
     }
   }
-  return shareWithin(errors, 0.1 * lengthOf(first.points));
+  return shareWithin(errors, 0.1 * largestDistance(first.points));
 }
 
 struct Case {

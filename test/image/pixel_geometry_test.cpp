@@ -95,5 +95,11 @@ TEST(UprightBounds, ofPointsOnALineHaveNoHeight) {
 
 TEST(UprightBounds, needAPoint) { EXPECT_THROW(uprightBounds({}), cv::Exception); }
 
+TEST(LengthOf, addsTheEdges) {
+  EXPECT_EQ(0.0, lengthOf({}));
+  EXPECT_EQ(0.0, lengthOf({{7.0, 8.0}}));
+  EXPECT_NEAR(5.0 + 2.0, lengthOf({{0.0, 0.0}, {3.0, 4.0}, {3.0, 2.0}}), 1e-9);
+}
+
 }  // namespace
 }  // namespace chain_tracker

@@ -35,4 +35,7 @@ struct Similarity {
 /// The smallest upright box that holds all points; the points must not be empty.
 cv::Rect2d uprightBounds(const std::vector<cv::Point2d>& points);
 
+/// Of a polyline [px]; 0 of less than two points.
+double lengthOf(const std::vector<cv::Point2d>& polyline);
+
 }  // namespace chain_tracker
