@@ -71,8 +71,8 @@ class ChainTracker::Implementation {
     requireModel(expanded);
     const ChainLayout layout = checked(layOut(expanded, points), image.size());
     requireContrast(image, layout.silhouette);
-    const ChainModel wide = withMeasuredAspects(expanded, image, points);
-    const ChainModel measured = withMeasuredWindows(wide, image, points);
+    const ChainModel with_links = withMeasuredAspects(expanded, image, points);
+    const ChainModel measured = withMeasuredWindows(with_links, image, points);
     return havePartsRoom(layOut(measured, points), image.size()) ? measured : expanded;
   }
 

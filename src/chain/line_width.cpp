@@ -6,6 +6,7 @@
 
 #include "chain_tracker/image/pixel_geometry.h"
 #include "stroke_reach.h"
+#include "upper_median.h"
 
 namespace chain_tracker {
 namespace {
@@ -27,7 +28,6 @@ constexpr double kMostInside = 0.75;
 constexpr double kWindow = 0.65;
 /// Windows overlap: steps of the line to a window.
 constexpr double kSteps = 2.0;
-constexpr int kFewestParts = 6;
 
 std::vector<StrokeSample> samplesAlong(const Polyline& polyline, double length) {
   std::vector<StrokeSample> samples;
@@ -45,8 +45,7 @@ void widenWindows(const cv::Mat& image, const Polyline& line, SegmentModel& segm
   const double length = lengthOf(line);
   const double side = kWindow * measureThickness(image, line);
   if (side <= segment.window * length / (segment.parts - 1)) return;
-  const int parts = std::max(kFewestParts, 1 + cvRound(kSteps * length / side));
-  segment.parts = std::min(parts, segment.parts);
+  segment.parts = std::min(1 + cvRound(kSteps * length / side), segment.parts);
   segment.window = side * (segment.parts - 1) / length;
 }
 
@@ -64,9 +63,8 @@ double measureThickness(const cv::Mat& image, const Polyline& polyline) {
     };
     widths.push_back(reachOf(colors, {at(i), at(i + 1)}, kMostInside, kFarthest * length).width());
   }
-  const auto median = widths.begin() + kPieces / 2;
-  std::nth_element(widths.begin(), median, widths.end());
-  return *median < 2.0 * kFarthest * length ? *median : 0.0;
+  const double thickness = takeUpperMedian(widths);
+  return thickness < 2.0 * kFarthest * length ? thickness : 0.0;
 }
 
 ChainModel withMeasuredWindows(ChainModel model, const cv::Mat& image, const Polyline& polyline) {
