@@ -2,6 +2,7 @@
 #include "appearance_costs.h"
 
 #include "chain_tracker/image/pixel_geometry.h"
+#include "texture_weight.h"
 
 namespace chain_tracker {
 namespace {
@@ -17,8 +18,8 @@ void weigh(const std::vector<float>& shares, std::vector<cv::Mat1f>& costs) {
 
 AppearanceCosts::AppearanceCosts(const AppearanceModel& model, const cv::Mat& image,
                                  const ChainLayout& layout, const ChainState& initial)
-    : model_(model),
-      learned_(image, layout, model),
+    : learned_(image, layout, model),
+      model_(withMeasuredTexture(model, layout, learned_)),
       jump_(image),
       light_(model.light_rate),
       pixels_(learned_.palette()),

@@ -45,6 +45,8 @@ class AppearanceCosts {
   /// That share the work, at least 1.
   void useThreads(int threads) { color_workspace_.threads = edge_workspace_.threads = threads; }
 
+  /// With the weights that fit the object.
+  const AppearanceModel& model() const { return model_; }
   ObjectAppearance& learned() { return learned_; }
   /// What a part looks like as it is turned in `state`, and then by `turn` [rad].
   const PartAppearance& lookOf(const ChainState& state, size_t part, double turn = 0.0);
@@ -76,8 +78,8 @@ class AppearanceCosts {
 
   const Looks& looksOf(const ChainState& sought, size_t m, double turn);
 
-  AppearanceModel model_;
   ObjectAppearance learned_;
+  AppearanceModel model_;
   std::vector<double> initial_orientations_;  // of the parts
   LightJump jump_;
   LightChange light_;

@@ -83,7 +83,7 @@ ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const Ch
       layout_(layout.segments),
       appearance_(model.appearance, image, layout, initial),
       image_(cv::Point2d(-0.5, -0.5), cv::Size2d(image.size())),
-      expectations_(appearance_.learned(), model.appearance, initial.parts.size()),
+      expectations_(appearance_.learned(), appearance_.model(), initial.parts.size()),
       overlaps_(initial.parts),
       joint_memory_(initial),
       springs_(model, layout.segments),

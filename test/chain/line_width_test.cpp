@@ -6,24 +6,16 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "chain_tracker/chain/chain_tracker.h"
+#include "support/drawn_swimmer.h"
 
 namespace chain_tracker {
 namespace {
 
 using Polyline = std::vector<cv::Point2d>;
 
-/// Grey clutter.
-cv::Mat3b floorOf(cv::RNG& random) {
-  cv::Mat3b image(240, 400);
-  random.fill(image, cv::RNG::NORMAL, cv::Scalar::all(170), cv::Scalar::all(12));
-  cv::GaussianBlur(image, image, {}, 1.0);
-  return image;
-}
-
 cv::Mat3b drawn(const Polyline& line, double thickness, const cv::Scalar& color = {60, 40, 30}) {
   cv::RNG random(7);
-  cv::Mat3b image = floorOf(random);
+  cv::Mat3b image = clutteredGround(random);
   std::vector<cv::Point> points(line.begin(), line.end());
   cv::polylines(image, points, false, color, cvRound(thickness));
   return image;
@@ -66,7 +58,7 @@ TEST(MeasureThickness, toleratesALineBesideTheMiddle) {
 TEST(MeasureThickness, isNoneWhereNothingStandsOut) {
   cv::RNG random(7);
   EXPECT_EQ(0.0, measureThickness(cv::Mat3b(240, 400, cv::Vec3b(60, 60, 60)), kStraight));
-  EXPECT_LT(measureThickness(floorOf(random), kStraight), 5.0);
+  EXPECT_LT(measureThickness(clutteredGround(random), kStraight), 5.0);
 }
 
 TEST(MeasureThickness, isNoneOfWhatIsNoLine) {
@@ -122,59 +114,9 @@ TEST(WithMeasuredWindows, measuresEachJoinedSegment) {
   }
 }
 
-/// A dark fish, 31 px thick where it is thickest, that swims on the spot.
-class Fish {
- public:
-  static constexpr double kLength = 260.0;
-
-  static Polyline midline(int frame) {
-    constexpr int kEdges = 20;
-    Polyline line = {{60.0, 120.0}};
-    for (int i = 0; i < kEdges; ++i) {
-      const double along = (i + 0.5) / kEdges;
-      const double angle = 0.5 * along * std::sin(2.0 * CV_PI * (along - frame / 30.0));
-      line.push_back(line.back() +
-                     kLength / kEdges * cv::Point2d(std::cos(angle), std::sin(angle)));
-    }
-    return line;
-  }
-
-  cv::Mat3b image(int frame) {
-    constexpr int kFiner = 4;
-    cv::Mat3b image = floorOf(random_);
-    cv::resize(image, image, {}, kFiner, kFiner);
-    const Polyline line = midline(frame);
-    for (size_t i = 1; i < line.size(); ++i) {
-      const double along = static_cast<double>(i) / 20.0;
-      const double thickness = 5.0 + 26.0 * std::sin(CV_PI * std::pow(along, 0.6));
-      cv::line(image, line[i - 1] * kFiner, line[i] * kFiner, {50, 35, 30},
-               cvRound(thickness * kFiner), cv::LINE_AA);
-    }
-    cv::resize(image, image, {}, 1.0 / kFiner, 1.0 / kFiner, cv::INTER_AREA);
-    cv::Mat3b noise(image.size());
-    random_.fill(noise, cv::RNG::NORMAL, cv::Scalar::all(20), cv::Scalar::all(4));
-    cv::add(image, noise, image);
-    return image;
-  }
-
- private:
-  cv::RNG random_{11};
-};
-
 /// Its body looks the same all along: narrow windows within it would let the chain contract.
 TEST(WithMeasuredWindows, followsTheMiddleOfAFish) {
-  Fish fish;
-  ChainTracker tracker(lineModel(), fish.image(0), Fish::midline(0));
-  double error = 0.0;
-  int points = 0;
-  for (int frame = 1; frame <= 120; ++frame) {
-    const ChainState& state = tracker.update(fish.image(frame));
-    const Polyline truth = Fish::midline(frame);
-    for (size_t i = 0; i < truth.size(); ++i, ++points) {
-      error += cv::norm(state.points[i].position - truth[i]);
-    }
-  }
-  EXPECT_LT(error / points, 0.015 * Fish::kLength);
+  EXPECT_LT(errorOfMidline(lineModel(), DrawnSwimmer::fish()), 0.015 * DrawnSwimmer::kLength);
 }
 
 }  // namespace

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "texture_weight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace chain_tracker {
+namespace {
+
+/// Mean length of textures. Windows of a thread hold its outline, or what marks it: 0.91 and more.
+/// Those within a body hold little but noise: 0.83 and less.
+constexpr double kFlat = 0.87;
+/// What is flat inside has the same colours wherever a window lies in it. Its texture tells when
+/// one reaches beyond the outline, and no background disturbs it until then.
+constexpr double kFlatBody = 4.0;
+
+bool bendsAnywhere(const ChainLayout& layout) {
+  return std::all_of(layout.segments.begin(), layout.segments.end(),
+                     [](const auto& segment) { return segment.layout == Layout::kDeformable; });
+}
+
+double lengthOf(const WindowTexture& texture) {
+  return std::sqrt(std::inner_product(texture.begin(), texture.end(), texture.begin(), 0.0));
+}
+
+/// Of `parts` windows; 1 if none is known.
+double meanTexture(size_t parts, ObjectAppearance& learned) {
+  double sum = 0.0;
+  double weights = 0.0;
+  for (size_t k = 0; k < parts; ++k) {
+    const PartAppearance& part = learned.part(k, 0.0);
+    sum += double(part.known) * lengthOf(part.texture);
+    weights += double(part.known);
+  }
+  return weights > 0.0 ? sum / weights : 1.0;
+}
+
+}  // namespace
+
+AppearanceModel withMeasuredTexture(AppearanceModel model, const ChainLayout& layout,
+                                    ObjectAppearance& learned) {
+  size_t parts = 0;
+  for (const SegmentLayout& segment : layout.segments) parts += segment.parts.size();
+  if (bendsAnywhere(layout) && meanTexture(parts, learned) < kFlat) model.haar_weight *= kFlatBody;
+  return model;
+}
+
+}  // namespace chain_tracker
