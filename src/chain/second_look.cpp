@@ -46,6 +46,9 @@ constexpr double kLoose = 3.0;
 constexpr int kRefits = 4;
 constexpr double kLeastGain = 0.01;
 constexpr double kRefitReach = 0.5;
+/// Of the expected likeness of what is doubted: no line that its first step left below has become
+/// better.
+constexpr double kHopeless = 0.75;
 constexpr double kRefitCandidates = 32.0;
 /// Around a line whose ends were moved: of the usual reach, of what it may bend between two frames,
 /// and how much more has to speak for it.
@@ -104,13 +107,14 @@ void SecondLook::reconsider(const ChainState& before, FoundChain& found) {
 }
 
 void SecondLook::lookElsewhere(const ChainState& before, FoundChain& found) {
+  const double least = kHopeless * found.expected_likeness;
   if (frames_doubted_ == 1) {
     for (const int side : {-1, 1}) preferBetter(turned(side, before), found);
   } else if (frames_doubted_ % kFramesPerLook == 0) {
-    preferLook(look(frames_doubted_ / kFramesPerLook, kWidestInDoubt), found);
+    preferLook(look(frames_doubted_ / kFramesPerLook, kWidestInDoubt, least), found);
   } else if (is_open_line_) {
     FoundChain aligned = found;
-    if (align(aligned)) preferBetter(refitted(std::move(aligned)), found);
+    if (align(aligned)) preferBetter(refitted(std::move(aligned), least), found);
   } else {
     tryOtherBends(found);
   }
@@ -118,7 +122,7 @@ void SecondLook::lookElsewhere(const ChainState& before, FoundChain& found) {
 
 FoundChain SecondLook::findLost(int frames_lost) {
   times_ = StepTimes();
-  FoundChain found = look(frames_lost, kWidestWhenLost);
+  FoundChain found = look(frames_lost, kWidestWhenLost, 0.0);
   if (past_views_.showed(found.state, image_)) forget(found);
   return found;
 }
@@ -172,8 +176,9 @@ FoundChain SecondLook::find(const ChainState& sought, const SearchRange& range) 
 }
 
 /// Around where the object was last seen for sure: a chain as it was then or, every other time,
-/// one around wherever its segments fit best.
-FoundChain SecondLook::look(int failures, double widest) {
+/// one around wherever its segments fit best; rough if it stays below the `least` expected
+/// likeness.
+FoundChain SecondLook::look(int failures, double widest, double least) {
   const double farthest = reach(failures, widest);
   FoundChain found;
   if (failures % 2 == 0) {
@@ -185,7 +190,7 @@ FoundChain SecondLook::look(int failures, double widest) {
   const bool is_believed = found.state.confidence >= model_.search.found_above;
   if (is_line_) {
     if (is_open_line_ && is_believed) align(found);
-    found = refitted(std::move(found));
+    found = refitted(std::move(found), least);
     if (is_uniform_line_ && liesReversed(found.state, trusted_)) reverse(found.state);
   }
   if (!is_open_line_ && is_believed) preferBetter(halfTurned(found), found);
@@ -209,8 +214,9 @@ FoundChain SecondLook::halfTurned(const FoundChain& found) {
 }
 
 /// A line bent along what it was found on, then as stiff as ever: one that may bend at will fits
-/// anything. Springs that remember where each edge pointed keep it from sliding along itself.
-FoundChain SecondLook::refitted(FoundChain found) {
+/// anything. Springs that remember where each edge pointed keep it from sliding along itself. Given
+/// up, as it is by then, once below the `least` expected likeness.
+FoundChain SecondLook::refitted(FoundChain found, double least) {
   const double near = kRefitReach * searchRadius();
   SearchRange range{searchRadius(), 0.0, kLoose};
   for (int i = 0; i < kRefits; ++i) {
@@ -219,6 +225,7 @@ FoundChain SecondLook::refitted(FoundChain found) {
     if (bent.likeness < found.likeness + kLeastGain) break;
     found = std::move(bent);
     range = {near, 0.0, kLoose, kRefitCandidates};
+    if (found.expected_likeness < least) return found;
   }
   shape_.carry(found.state);
   return find(found.state, {near, 0.0, 1.0, kRefitCandidates});

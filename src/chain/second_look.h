@@ -56,10 +56,10 @@ class SecondLook {
   FoundChain find(const ChainState& sought, const SearchRange& range);
 
   void lookElsewhere(const ChainState& before, FoundChain& found);
-  FoundChain look(int failures, double widest);
+  FoundChain look(int failures, double widest, double least);
   FoundChain turned(int side, const ChainState& before);
   FoundChain halfTurned(const FoundChain& found);
-  FoundChain refitted(FoundChain found);
+  FoundChain refitted(FoundChain found, double least);
   void tryEnds(FoundChain& found);
   void learnEnds(const FoundChain& found);
   void seekEnds();
