@@ -15,10 +15,15 @@ constexpr double kFlat = 0.87;
 /// What is flat inside has the same colours wherever a window lies in it. Its texture tells when
 /// one reaches beyond the outline, and no background disturbs it until then.
 constexpr double kFlatBody = 4.0;
+/// Side of its windows, of its length. What is thinner has few pixels to a window, and those beyond
+/// its ends are another blur in every frame: it would draw back from them.
+constexpr double kThick = 0.04;
 
-bool bendsAnywhere(const ChainLayout& layout) {
-  return std::all_of(layout.segments.begin(), layout.segments.end(),
-                     [](const auto& segment) { return segment.layout == Layout::kDeformable; });
+bool isThickBody(const SegmentLayout& segment) {
+  if (segment.layout != Layout::kDeformable) return false;
+  double length = 0.0;
+  for (const EdgeLayout& edge : segment.edges) length += edge.length;
+  return segment.parts.front().side >= kThick * length;
 }
 
 double lengthOf(const WindowTexture& texture) {
@@ -43,7 +48,8 @@ AppearanceModel withMeasuredTexture(AppearanceModel model, const ChainLayout& la
                                     ObjectAppearance& learned) {
   size_t parts = 0;
   for (const SegmentLayout& segment : layout.segments) parts += segment.parts.size();
-  if (bendsAnywhere(layout) && meanTexture(parts, learned) < kFlat) model.haar_weight *= kFlatBody;
+  const bool is_thick = std::all_of(layout.segments.begin(), layout.segments.end(), isThickBody);
+  if (is_thick && meanTexture(parts, learned) < kFlat) model.haar_weight *= kFlatBody;
   return model;
 }
 

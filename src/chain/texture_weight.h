@@ -8,9 +8,9 @@
 
 namespace chain_tracker {
 
-/// `model`, with four times its haar_weight for a flat body that bends: if all segments are
-/// deformable and the textures of their windows, where those are known, are shorter than 0.87 in
-/// the mean (of 0, flat, to 1). O(parts).
+/// `model`, with four times its haar_weight for a flat, thick body that bends: if all segments are
+/// deformable, with windows of at least a 25th of their length, and the textures of these, where
+/// they are known, are shorter than 0.87 in the mean (of 0, flat, to 1). O(parts).
 AppearanceModel withMeasuredTexture(AppearanceModel model, const ChainLayout& layout,
                                     ObjectAppearance& learned);
 

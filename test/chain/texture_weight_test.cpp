@@ -53,6 +53,10 @@ TEST(WithMeasuredTexture, countsItAsUsualOnAThread) {
   EXPECT_EQ(kWeight, weightOf(lineModel(20.0), drawn(6)));
 }
 
+TEST(WithMeasuredTexture, countsItAsUsualInSmallWindowsWithinSomethingThin) {
+  EXPECT_EQ(kWeight, weightOf(lineModel(10.0), drawn(16)));
+}
+
 TEST(WithMeasuredTexture, countsItAsUsualOnAMarkedBody) {
   EXPECT_EQ(kWeight, weightOf(lineModel(20.0), drawn(40, 32)));
 }

@@ -71,8 +71,9 @@ struct AppearanceModel {
   double min_object_share = 0.5;  ///< a colour rarer on the object than this becomes "other"
   double weight = 8.0;            ///< of the colour cost against the springs
   double edge_weight = 16.0;      ///< of the cost of edges, in the coarse search; 0: none
-  /// Of the cost of texture, in the fine search; 0: none. Four times as much for what is deformable
-  /// and flat inside: its colours hardly tell where in it a part lies; see texture_weight.h.
+  /// Of the cost of texture, in the fine search; 0: none. Four times as much for what is
+  /// deformable, thick and flat inside: its colours hardly tell where in it a part lies; see
+  /// texture_weight.h.
   double haar_weight = 4.0;
   /// Share of its usual confidence below which a part is taken to show something else.
   double outlier_below = 0.5;
