@@ -29,6 +29,7 @@ class EvaluatedChainTracker : public EvaluatedTracker {
             state.confidence,
             state.status == TrackingStatus::kLost,
             state.box,
+            state.outline,
             pose.angle,
             pose.scale,
             state.parts,

@@ -199,6 +199,11 @@ cv::Rect2d boxAround(const std::vector<cv::Point2d>& points) {
           height};
 }
 
+cv::Rect2d comparableBox(const TrackedFrame& tracked, const GroundTruth& truth) {
+  const bool turns = truth.boxes_turn && !tracked.outline.empty();
+  return turns ? uprightBounds(tracked.outline) : tracked.box;
+}
+
 FrameScore scoreFrame(const TrackedFrame& tracked, const GroundTruth& truth, int frame) {
   FrameScore score;
   score.lost = tracked.lost;
@@ -206,7 +211,7 @@ FrameScore scoreFrame(const TrackedFrame& tracked, const GroundTruth& truth, int
   if (points != truth.points.end()) scorePoints(tracked, points->second, score);
   const auto box = truth.boxes.find(frame);
   if (box != truth.boxes.end()) {
-    if (box->second) scoreBox(tracked.box, *box->second, tracked.lost, score);
+    if (box->second) scoreBox(comparableBox(tracked, truth), *box->second, tracked.lost, score);
     score.has_absence = !box->second;
   } else if (points != truth.points.end()) {
     if (const auto around = boxOf(points->second)) {

@@ -20,6 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What rounding may move corners by [px].
+constexpr double kWholePixel = 1.0;
+
 [[noreturn]] void refuse(const std::string& path, int line, const std::string& reason) {
   throw std::invalid_argument(path + ":" + std::to_string(line) + ": " + reason);
 }
@@ -83,6 +86,15 @@ std::vector<cv::Point2d> cornersIn(const std::vector<double>& n) {
 std::vector<cv::Point2d> cornersOf(const cv::Rect2d& box) {
   const cv::Point2d high = box.br();
   return {box.tl(), {high.x, box.y}, high, {box.x, high.y}};
+}
+
+/// Whether the sides are parallel to the image's.
+bool isUpright(const std::vector<cv::Point2d>& corners) {
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const cv::Point2d side = corners[(k + 1) % corners.size()] - corners[k];
+    if (std::min(std::abs(side.x), std::abs(side.y)) > kWholePixel) return false;
+  }
+  return true;
 }
 
 int lineOf(const YAML::Node& node) { return node.Mark().line + 1; }
@@ -248,7 +260,10 @@ void readBoxes(const std::string& path, GroundTruth& truth) {
       box = n.size() == 4 ? cv::Rect2d(n[0], n[1], n[2], n[3]) : uprightBounds(cornersIn(n));
       if (!(box->width > 0.0 && box->height > 0.0)) box.reset();
     }
-    if (box && n.size() == 8) truth.polygons[frame] = cornersIn(n);
+    if (box && n.size() == 8) {
+      truth.polygons[frame] = cornersIn(n);
+      truth.boxes_turn = truth.boxes_turn || !isUpright(cornersIn(n));
+    }
     truth.boxes[frame++] = box;
   }
 }

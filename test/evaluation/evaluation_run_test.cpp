@@ -142,6 +142,22 @@ TEST(EvaluationRun, KnownBoxesGetKnownScores) {
   EXPECT_TRUE(std::isnan(scores.pck_10)) << "there are no true points";
 }
 
+TEST(EvaluationRun, WhereTheTruthTurnsTheBoundsOfTheOutlineAreScored) {
+  TrackedFrame turned = at(0.0);
+  turned.box = {5.0, 0.0, 10.0, 10.0};
+  turned.outline = {{5, 0}, {10, 5}, {5, 10}, {0, 5}};
+  GroundTruth truth = boxesAt0({0, 1});
+  const auto overlaps = [&] {
+    const auto result = run(FakeSource(2), only({turned, at(0.0)}), truth);
+    const std::vector<EvaluatedFrame>& frames = result.runs.front().frames;
+    return std::make_pair(frames[0].score.overlap, frames[1].score.overlap);
+  };
+  EXPECT_NEAR(overlaps().first, 1.0 / 3.0, 1e-9);
+  truth.boxes_turn = true;
+  EXPECT_DOUBLE_EQ(overlaps().first, 1.0);
+  EXPECT_DOUBLE_EQ(overlaps().second, 1.0) << "a tracker without outlines has its box";
+}
+
 TEST(EvaluationRun, ALostFrameIsNoOverlap) {
   const auto result = run(FakeSource(3), only({at(0.0), lost(), at(0.0)}), boxesAt0({0, 1, 2}));
   const Scores& scores = result.runs.front().scores;

@@ -74,6 +74,13 @@ TEST_F(GroundTruthFiles, PolygonsBecomeTheirUprightBoxes) {
   EXPECT_EQ(truth.polygons.at(0)[1], cv::Point2d(20, 10));
 }
 
+TEST_F(GroundTruthFiles, BoxesTurnIfAnyIsGivenByTurnedCorners) {
+  const std::string upright = "10,10,30,10,30,50,10,50\n";
+  EXPECT_TRUE(boxesIn(upright + "12,10,32,14,28,54,8,50\n").boxes_turn);
+  EXPECT_FALSE(boxesIn(upright + "10,10,31,11,30,50,10,51\n").boxes_turn) << "whole pixels";
+  EXPECT_FALSE(boxesIn("1,2,30,40\n").boxes_turn);
+}
+
 TEST_F(GroundTruthFiles, NanOrAnEmptyBoxSaysThatThereIsNoObject) {
   const GroundTruth truth = boxesIn("1,2,30,40\nNaN,NaN,NaN,NaN\nnan 2 3 4\n0,0,0,0\n5,6,7,8\n");
   ASSERT_EQ(truth.boxes.size(), 5U);

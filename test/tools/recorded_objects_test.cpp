@@ -160,6 +160,8 @@ TEST_F(Recordings, AreMatchedByStampAndMissWhatWasDropped) {
   EXPECT_DOUBLE_EQ(second.tracked.confidence, 0.75);
   EXPECT_DOUBLE_EQ(second.tracked.scale, 1.0);
   expectSameBox(second.tracked.box, {160, 135, 80, 30});
+  ASSERT_EQ(second.tracked.outline.size(), 4U);
+  EXPECT_EQ(second.tracked.outline[2], cv::Point2d(240, 165));
   ASSERT_EQ(second.tracked.points.size(), 4U);
   EXPECT_EQ(second.tracked.points[2].position, cv::Point2d(240, 165));
   ASSERT_EQ(second.tracked.parts.size(), 2U);

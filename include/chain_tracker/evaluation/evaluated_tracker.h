@@ -18,7 +18,9 @@ struct TrackedFrame {
   std::string state;        ///< TRACKING, OCCLUDED, LOST, ...
   double confidence = 0.0;  ///< [0, 1]; box trackers: 1 while they report success
   bool lost = false;
-  cv::Rect2d box;      ///< [px]
+  cv::Rect2d box;  ///< upright [px]
+  /// Of an object that turns, if the tracker tells [px]; else empty.
+  std::vector<cv::Point2d> outline;
   double theta = 0.0;  ///< [rad]
   double scale = 1.0;
   std::vector<PartState> parts;

@@ -77,6 +77,11 @@ EvaluationResult scoreRecording(FrameSource& frames, const std::map<int, Recorde
 /// for a shape known by its points only.
 cv::Rect2d boxAround(const std::vector<cv::Point2d>& points);
 
+/// The upright box of what was tracked that compares with the truth's: a box given by upright
+/// corners does not turn with the object, where the truth does turn the bounds of its outline stand
+/// for it.
+cv::Rect2d comparableBox(const TrackedFrame& tracked, const GroundTruth& truth);
+
 /// Scores what was tracked in a frame. Pure; serves live recordings too.
 FrameScore scoreFrame(const TrackedFrame& tracked, const GroundTruth& truth, int frame);
 

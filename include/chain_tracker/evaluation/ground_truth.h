@@ -23,6 +23,9 @@ struct GroundTruth {
   std::map<int, std::optional<cv::Rect2d>> boxes;
   /// Corners, in order, of the boxes that were given by them, by frame.
   std::map<int, std::vector<cv::Point2d>> polygons;
+  /// Some of these corners are not those of an upright box: the boxes turn with the object, and the
+  /// upright ones bound them.
+  bool boxes_turn = false;
   /// Points by frame and index; frames and points may be missing.
   std::map<int, std::map<int, TruePoint>> points;
 

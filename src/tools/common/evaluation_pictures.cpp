@@ -37,7 +37,8 @@ void drawTruth(const GroundTruth& truth, int frame, int thickness, cv::Mat& canv
   }
 }
 
-void drawTracked(const TrackedFrame& tracked, int thickness, cv::Mat& canvas) {
+void drawTracked(const TrackedFrame& tracked, const GroundTruth& truth, int thickness,
+                 cv::Mat& canvas) {
   for (std::size_t k = 0; k < tracked.parts.size(); ++k) {
     const PartState& part = tracked.parts[k];
     const cv::Scalar color = part.visible ? kTrackedColor : kHiddenColor;
@@ -47,7 +48,8 @@ void drawTracked(const TrackedFrame& tracked, int thickness, cv::Mat& canvas) {
     }
     cv::circle(canvas, cv::Point(part.position), 2 * thickness, color, cv::FILLED, cv::LINE_AA);
   }
-  cv::rectangle(canvas, cv::Rect(tracked.box), kTrackedColor, thickness, cv::LINE_AA);
+  cv::rectangle(canvas, cv::Rect(comparableBox(tracked, truth)), kTrackedColor, thickness,
+                cv::LINE_AA);
 }
 
 double badness(const FrameScore& score) {
@@ -103,7 +105,7 @@ cv::Mat drawComparison(const SourceFrame& frame, const TrackedFrame& tracked,
   }
   const int thickness = std::max(1, cvRound(canvas.cols / 320.0));
   drawTruth(truth, frame.index, thickness, canvas);
-  if (!tracked.lost) drawTracked(tracked, thickness, canvas);
+  if (!tracked.lost) drawTracked(tracked, truth, thickness, canvas);
   const std::string label = std::to_string(frame.index) + " " + tracked.state + " " +
                             std::to_string(cvRound(100.0 * tracked.confidence)) + " %";
   cv::putText(canvas, label, {8, 14 + 12 * thickness}, cv::FONT_HERSHEY_SIMPLEX,

@@ -29,6 +29,9 @@ TrackedFrame frameFrom(const TrackedObject& object) {
   frame.confidence = object.confidence;
   frame.lost = object.state == TrackedObject::LOST;
   frame.box = boxOf(object);
+  for (const geometry_msgs::Point32& corner : object.outline.points) {
+    frame.outline.emplace_back(corner.x, corner.y);
+  }
   frame.theta = object.pose.theta;
   frame.scale = object.scale;
   for (const PartPose& part : object.parts) frame.parts.push_back(partFrom(part));
