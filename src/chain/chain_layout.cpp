@@ -296,6 +296,12 @@ std::vector<cv::Point2d> nodesOf(const SegmentLayout& segment) {
   return nodes;
 }
 
+double chainLengthOf(const SegmentLayout& segment) {
+  double length = 0.0;
+  for (const EdgeLayout& edge : segment.edges) length += edge.length;
+  return length;
+}
+
 ChainLayout layOut(const ChainModel& model, const std::vector<cv::Point2d>& points) {
   requireFinite(points);
   if (model.segment_per_edge) {  // forPolyline() found no edge

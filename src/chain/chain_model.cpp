@@ -2,7 +2,6 @@
 #include "chain_tracker/chain/chain_model.h"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 namespace chain_tracker {

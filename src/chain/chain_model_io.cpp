@@ -2,8 +2,6 @@
 #include "chain_tracker/chain/chain_model_io.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <set>
@@ -209,14 +207,7 @@ ChainModel parseChainModel(const std::string& yaml, const std::string& source) {
 }
 
 ChainModel loadChainModel(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) {
-    throw std::invalid_argument("model file " + std::filesystem::absolute(path).string() +
-                                " cannot be read");
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parseChainModel(text.str(), path);
+  return parseChainModel(textOfFile(path, "model"), path);
 }
 
 }  // namespace chain_tracker

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "chain_nodes.h"
 #include "length_evidence.h"
@@ -141,7 +140,6 @@ void ChainSearch::useThreads(int threads) {
 }
 
 void ChainSearch::find(const ChainState& sought, const SearchRange& range, FoundChain& found) {
-  Stopwatch watch;
   sought_ = sought;
   takePoses(sought, previous_);
   range_ = range;
@@ -149,12 +147,9 @@ void ChainSearch::find(const ChainState& sought, const SearchRange& range, Found
   springs_.relax(sought, range.looseness, layout_);
   found.state = sought;
   found.state.confidence = found.likeness = found.expected_likeness = 0.0;
-  StepTimes& times = found.state.times = StepTimes();
   lookCoarsely();
-  times.part_costs = watch.lap();
   const ChainMatch& match =
       matched(coarse_->candidates.poses, coarse_->candidates.segments, coarse_->workspace);
-  times.matching = watch.lap();
   if (!match.found()) return;
   keepEdgeCosts(match);
   lookFinely(match);
@@ -162,29 +157,25 @@ void ChainSearch::find(const ChainState& sought, const SearchRange& range, Found
   if (finest.found()) {
     interpolatePoses(fine_.poses, finest, poses_);
     settle(found);
-    found.state.energy = finest.energy;
   }
-  times.refinement = watch.lap();
 }
 
 void ChainSearch::findAnywhere(const ChainState& sought, double reach, const SearchRange& range,
                                FoundChain& found) {
-  Stopwatch watch;
   const Linkage links = linkageOf(sought);
   findMoved(sought,
             placement_search_.find(links.segments, links.hinges, reach, appearance_.pixels()),
-            range, watch, found);
+            range, found);
 }
 
 void ChainSearch::findHung(const ChainState& sought, const std::vector<bool>& seen,
                            const SearchRange& range, FoundChain& found) {
-  Stopwatch watch;
   Linkage links = linkageOf(sought);
   // What is looked for at all angles is believed to have left its rest.
   for (Hinge& hinge : links.hinges) hinge.rest = JointRest();
   findMoved(sought,
             placement_search_.hang(links.segments, links.hinges, seen, appearance_.pixels()), range,
-            watch, found);
+            found);
 }
 
 bool ChainSearch::alignLine(ChainState& line) {
@@ -207,14 +198,11 @@ ChainSearch::Linkage ChainSearch::linkageOf(const ChainState& state) {
   return links;
 }
 
-/// `watch`: since the motions were begun to be looked for.
 void ChainSearch::findMoved(const ChainState& sought, const std::vector<Similarity>& motions,
-                            const SearchRange& range, Stopwatch& watch, FoundChain& found) {
+                            const SearchRange& range, FoundChain& found) {
   ChainState moved = sought;
   for (size_t m = 0; m < segments(); ++m) moveSegment(motions[m], m, moved);
-  const double placing = watch.lap();
   find(moved, range, found);
-  found.state.times.part_costs += placing;
 }
 
 /// Every so many parts, from end to end, that at most `wanted` are asked.

@@ -24,7 +24,6 @@
 #include "placement_search.h"
 #include "pose_fits.h"
 #include "spring_relaxation.h"
-#include "stopwatch.h"
 
 namespace chain_tracker {
 
@@ -67,7 +66,7 @@ class ChainSearch {
   /// The image in which find() looks from now on; it must live as long.
   void show(const cv::Mat& image, SearchLight light) { appearance_.show(image, light); }
 
-  /// `found` becomes `sought` moved to the best chain: parts, poses, confidence, energy and times;
+  /// `found` becomes `sought` moved to the best chain: parts, poses and confidence;
   /// its status, outline and points are those of `sought`. Confidence 0 if the springs allow no
   /// chain. Time as of ChainTracker::update().
   void find(const ChainState& sought, const SearchRange& range, FoundChain& found);
@@ -123,7 +122,7 @@ class ChainSearch {
   void robustify(Candidates& candidates) const;
   Linkage linkageOf(const ChainState& state);
   void findMoved(const ChainState& sought, const std::vector<Similarity>& motions,
-                 const SearchRange& range, Stopwatch& watch, FoundChain& found);
+                 const SearchRange& range, FoundChain& found);
   std::vector<Voter> votersOf(const ChainState& state, size_t m, size_t wanted);
   const ChainMatch& matched(const std::vector<PoseGrid>& poses,
                             const std::vector<SegmentCandidates>& candidates,

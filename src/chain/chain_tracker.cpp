@@ -2,7 +2,6 @@
 #include "chain_tracker/chain/chain_tracker.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "chain_search.h"
@@ -12,7 +11,6 @@
 #include "chain_tracker/chain/target_checks.h"
 #include "line_width.h"
 #include "second_look.h"
-#include "stopwatch.h"
 
 namespace chain_tracker {
 namespace {
@@ -40,17 +38,12 @@ class ChainTracker::Implementation {
     requireSameKind(image, image_size_, image_type_);
     search_.show(image, searchLight());
     second_look_.show(image);
-    times_ = StepTimes();
     if (state_.status == TrackingStatus::kLost) {
       found_ = second_look_.findLost(1 + frames_lost_);
     } else {
       follow();
     }
-    times_ += second_look_.times();
-    Stopwatch watch;
     accept();
-    times_.pose += watch.lap();
-    state_.times = times_;
     return state_;
   }
 
@@ -112,7 +105,6 @@ class ChainTracker::Implementation {
   void follow() {
     const double radius = second_look_.searchRadius();
     search_.find(state_, {radius, model_.search.travel_weight / radius}, found_);
-    times_ = found_.state.times;
     second_look_.reconsider(state_, found_);
   }
 
@@ -140,7 +132,6 @@ class ChainTracker::Implementation {
   void giveUp(const ChainState& found) {
     state_.status = found.status;
     state_.confidence = found.confidence;
-    state_.energy = found.energy;
     for (SegmentState& segment : state_.segments) segment.confidence = 0.0;
     for (PartState& part : state_.parts) {
       part.confidence = 0.0;
@@ -161,7 +152,6 @@ class ChainTracker::Implementation {
   FoundChain found_;  // in this frame
   ChainSearch search_;
   SecondLook second_look_;
-  StepTimes times_;
   int frames_lost_ = 0;
 };
 

@@ -3,7 +3,6 @@
 /// along fits a shorter chain as well, and would shrink a little in every frame.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "chain_tracker/chain/part_costs.h"

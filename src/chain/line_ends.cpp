@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "chain_tracker/image/pixel_geometry.h"
 #include "line_motion.h"
@@ -15,6 +14,8 @@ namespace {
 /// like a line that becomes shorter, so that goes slowly.
 constexpr double kLonger = 2.0;
 constexpr double kShorter = 1.0;
+/// Of the line, at most: the edges of one with few parts are long.
+constexpr double kMostChange = 0.2;
 /// Of the line, that has to be seen.
 constexpr double kLeastSeen = 0.25;
 /// Of the length in what speaks for a line. With all of it, a part more that is seen and one that
@@ -24,9 +25,8 @@ constexpr double kLengthPower = 0.7;
 }  // namespace
 
 LineEnds::LineEnds(const SegmentLayout& line)
-    : part_(1.0 / static_cast<double>(line.edges.size())) {
+    : first_length_(chainLengthOf(line)), part_(1.0 / static_cast<double>(line.edges.size())) {
   for (const EdgeLayout& edge : line.edges) first_lengths_.push_back(edge.length);
-  first_length_ = std::accumulate(first_lengths_.begin(), first_lengths_.end(), 0.0);
 }
 
 bool LineEnds::stretch(ChainState& line) {
@@ -42,8 +42,9 @@ bool LineEnds::rescale(ChainState& line) {
   const bool grows = turn_ < 2;
   const double seen = seenShare(line);
   if (seen < kLeastSeen || (grows && isShort(seen))) return false;
+  const double change = grows ? kLonger * part_ : -kShorter * part_;
   line.segments.front().image_from_segment.scale *=
-      grows ? 1.0 + kLonger * part_ : 1.0 - kShorter * part_;
+      1.0 + std::clamp(change, -kMostChange, kMostChange);
   layAlongSeen(turn_ % 2 == 0, line);
   return true;
 }

@@ -2,7 +2,6 @@
 #include "line_width.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "chain_tracker/image/pixel_geometry.h"
 #include "stroke_reach.h"

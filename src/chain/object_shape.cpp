@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/chain/object_shape.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace chain_tracker {

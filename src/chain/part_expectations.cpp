@@ -27,9 +27,7 @@ constexpr double kBelievedOutside = 0.9;
 double evidenceOf(const PartAppearance& learned, const AppearanceModel& model) {
   const double other = learned.colors[ColorPalette::kOther];
   const double colors = std::sqrt(std::max(0.0, 1.0 - other));
-  const double texture =
-      0.5 * std::sqrt(std::inner_product(learned.texture.begin(), learned.texture.end(),
-                                         learned.texture.begin(), 0.0));
+  const double texture = 0.5 * strengthOf(learned.texture);
   const double least = kLeastEvidence * (model.weight + model.haar_weight);
   const double told = std::max(least, model.weight * colors + model.haar_weight * texture);
   return std::max(kNoEvidence, learned.known * told);

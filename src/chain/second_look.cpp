@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -66,10 +65,8 @@ constexpr double kSeen = 0.5;
 /// The two ways round a contour that nearly closes are mirror images of one another, which no
 /// motion exchanges.
 bool isOpen(const SegmentLayout& line) {
-  double length = 0.0;
-  for (const EdgeLayout& edge : line.edges) length += edge.length;
   const cv::Point2d ends = line.parts.back().position - line.parts.front().position;
-  return cv::norm(ends) > kOpen * length;
+  return cv::norm(ends) > kOpen * chainLengthOf(line);
 }
 
 void forget(FoundChain& found) {
@@ -94,7 +91,6 @@ SecondLook::SecondLook(const ChainModel& model, const ChainLayout& layout,
       ends_(layout.segments.front()) {}
 
 void SecondLook::reconsider(const ChainState& before, FoundChain& found) {
-  times_ = StepTimes();
   frame_ = (frame_ + 1) % kFramesPerLook;
   if (tries_ends_ && !isDoubtful(found)) tryEnds(found);
   if (isDoubtful(found)) {
@@ -121,7 +117,6 @@ void SecondLook::lookElsewhere(const ChainState& before, FoundChain& found) {
 }
 
 FoundChain SecondLook::findLost(int frames_lost) {
-  times_ = StepTimes();
   FoundChain found = look(frames_lost, kWidestWhenLost, 0.0);
   if (past_views_.showed(found.state, image_)) forget(found);
   return found;
@@ -171,7 +166,6 @@ double SecondLook::reach(int failures, double widest) const {
 FoundChain SecondLook::find(const ChainState& sought, const SearchRange& range) {
   FoundChain found;
   search_.find(sought, range, found);
-  times_ += found.state.times;
   return found;
 }
 
@@ -183,7 +177,6 @@ FoundChain SecondLook::look(int failures, double widest, double least) {
   FoundChain found;
   if (failures % 2 == 0) {
     search_.findAnywhere(trusted_, farthest, {searchRadius(), 0.0}, found);
-    times_ += found.state.times;
   } else {
     found = find(trusted_, {farthest, 0.0});
   }
@@ -260,7 +253,6 @@ void SecondLook::seekEnds() {
   SearchRange range{kEndReach * searchRadius(), 0.0, kLooseEnds};
   range.is_narrow = true;
   search_.find(sought_, range, other_);
-  times_ += other_.state.times;
 }
 
 /// What is found around `sought_`, if more speaks for it.
@@ -292,7 +284,6 @@ void SecondLook::tryOtherBends(FoundChain& found) {
   if (loose == 0 || loose == all) return;
   FoundChain hung;
   search_.findHung(found.state, is_held_, {searchRadius(), 0.0}, hung);
-  times_ += hung.state.times;
   const double share = static_cast<double>(loose) / static_cast<double>(all);
   preferBetter(std::move(hung), std::min(kClearlyBetter, kBetterSegment * share), found);
 }

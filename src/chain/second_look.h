@@ -43,9 +43,6 @@ class SecondLook {
   /// To be called with every chain that was taken for the object.
   void observe(const FoundChain& found);
 
-  /// What the last call of reconsider() or findLost() took.
-  const StepTimes& times() const { return times_; }
-
  private:
   /// A line that was in doubt stays so for longer.
   bool isDoubtful(const FoundChain& found) const;
@@ -88,7 +85,6 @@ class SecondLook {
   ChainState sought_;
   FoundChain other_;
   std::vector<bool> is_held_;  ///< of the segments: where they were found
-  StepTimes times_;
 };
 
 }  // namespace chain_tracker

@@ -37,7 +37,8 @@ struct StrokeRing {
 std::vector<StrokeSample> samplesBetween(const cv::Point2d& from, const cv::Point2d& to,
                                          double first, double last, int points);
 
-/// Not 0 where a pixel of the image, CV_8UC3 or CV_8UC1, has a colour of the axis.
+/// Not 0 where a pixel of the image, CV_8UC3 or CV_8UC1, has a colour of the axis; 0 everywhere if
+/// all of that lies outside.
 cv::Mat1b axisColors(const cv::Mat& image, const std::vector<cv::Point2d>& stroke,
                      const StrokeRing& ring);
 

@@ -2,9 +2,7 @@
 #include "texture_weight.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <numeric>
 
 namespace chain_tracker {
 namespace {
@@ -20,14 +18,8 @@ constexpr double kFlatBody = 4.0;
 constexpr double kThick = 0.04;
 
 bool isThickBody(const SegmentLayout& segment) {
-  if (segment.layout != Layout::kDeformable) return false;
-  double length = 0.0;
-  for (const EdgeLayout& edge : segment.edges) length += edge.length;
-  return segment.parts.front().side >= kThick * length;
-}
-
-double lengthOf(const WindowTexture& texture) {
-  return std::sqrt(std::inner_product(texture.begin(), texture.end(), texture.begin(), 0.0));
+  return segment.layout == Layout::kDeformable &&
+         segment.parts.front().side >= kThick * chainLengthOf(segment);
 }
 
 /// Of `parts` windows; 1 if none is known.
@@ -36,7 +28,7 @@ double meanTexture(size_t parts, ObjectAppearance& learned) {
   double weights = 0.0;
   for (size_t k = 0; k < parts; ++k) {
     const PartAppearance& part = learned.part(k, 0.0);
-    sum += double(part.known) * lengthOf(part.texture);
+    sum += double(part.known) * strengthOf(part.texture);
     weights += double(part.known);
   }
   return weights > 0.0 ? sum / weights : 1.0;

@@ -43,8 +43,8 @@ std::optional<cv::Rect2d> boxOf(const std::map<int, TruePoint>& points) {
 
 /// The truth in boxes alone: those around its points where it has no others.
 GroundTruth boxesOf(const GroundTruth& truth) {
-  GroundTruth boxes;
-  boxes.boxes = truth.boxes;
+  GroundTruth boxes = truth;
+  boxes.points.clear();
   for (const auto& [frame, points] : truth.points) {
     if (const auto box = boxOf(points)) boxes.boxes.emplace(frame, box);
   }
@@ -212,7 +212,6 @@ FrameScore scoreFrame(const TrackedFrame& tracked, const GroundTruth& truth, int
   const auto box = truth.boxes.find(frame);
   if (box != truth.boxes.end()) {
     if (box->second) scoreBox(comparableBox(tracked, truth), *box->second, tracked.lost, score);
-    score.has_absence = !box->second;
   } else if (points != truth.points.end()) {
     if (const auto around = boxOf(points->second)) {
       scoreBox(pointBox(tracked, points->second), *around, tracked.lost, score);
@@ -223,9 +222,7 @@ FrameScore scoreFrame(const TrackedFrame& tracked, const GroundTruth& truth, int
 
 double objectLength(const std::vector<cv::Point2d>& start, bool rectangle) {
   if (rectangle && start.size() == 4) return cv::norm(start[2] - start[0]);
-  double length = 0.0;
-  for (std::size_t i = 1; i < start.size(); ++i) length += cv::norm(start[i] - start[i - 1]);
-  return length;
+  return lengthOf(start);
 }
 
 EvaluationResult evaluate(FrameSource& frames,

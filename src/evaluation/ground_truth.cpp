@@ -14,6 +14,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "chain_tracker/image/pixel_geometry.h"
+#include "yaml/yaml_document.h"
 
 namespace chain_tracker {
 namespace {
@@ -163,7 +164,7 @@ void readInitKey(const std::string& key, const YAML::Node& value, const std::str
 Init readInit(const std::string& path) {
   Init init;
   try {
-    const YAML::Node document = YAML::LoadFile(path);
+    const YAML::Node document = parseYamlDocument(textOfFile(path, "init"), path);
     if (!document.IsNull() && !document.IsMap()) {
       refuse(path, lineOf(document), "must be a map of the keys first_frame, model, points");
     }

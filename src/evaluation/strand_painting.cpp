@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "chain_tracker/image/pixel_geometry.h"
+
 namespace chain_tracker {
 namespace {
 
@@ -71,11 +73,8 @@ class StrandEnds {
       : first_(line.front()),
         last_(line.back()),
         first_outwards_(unit(line[0] - line[1])),
-        last_outwards_(unit(line.back() - line[line.size() - 2])) {
-    double length = 0.0;
-    for (size_t i = 1; i < line.size(); ++i) length += cv::norm(line[i] - line[i - 1]);
-    concerned_ = reach / std::max(length, 1e-9);
-  }
+        last_outwards_(unit(line.back() - line[line.size() - 2])),
+        concerned_(reach / std::max(lengthOf(line), 1e-9)) {}
 
   /// The share of a pixel that the cuts leave.
   double coverageAt(const cv::Point2d& pixel, const Footing& footing) const {
@@ -98,7 +97,7 @@ class StrandEnds {
   cv::Point2d last_;
   cv::Point2d first_outwards_;
   cv::Point2d last_outwards_;
-  double concerned_ = 0.0;
+  double concerned_;
 };
 
 double coverageAcross(const Footing& footing, double half_width) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/haar/double_difference.h"
 
-#include <algorithm>
 #include <map>
 
 namespace chain_tracker::haar {

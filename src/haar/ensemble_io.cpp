@@ -2,10 +2,8 @@
 #include "chain_tracker/haar/ensemble_io.h"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include <yaml-cpp/yaml.h>
@@ -14,14 +12,6 @@
 
 namespace chain_tracker::haar {
 namespace {
-
-std::string textOfFile(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || !text) throw std::invalid_argument("ensemble file " + path + " cannot be read");
-  return text.str();
-}
 
 /// One place in a document.
 class Reader {
@@ -130,11 +120,11 @@ FeatureEnsemble parseEnsemble(const std::string& yaml, const std::string& source
 }
 
 FeatureEnsemble loadEnsemble(const std::string& path) {
-  return parseEnsemble(textOfFile(path), path);
+  return parseEnsemble(textOfFile(path, "ensemble"), path);
 }
 
 CascadeFeatures loadCascade(const std::string& path) {
-  return parseCascade(textOfFile(path), path);
+  return parseCascade(textOfFile(path, "ensemble"), path);
 }
 
 }  // namespace chain_tracker::haar

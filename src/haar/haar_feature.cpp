@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/haar/haar_feature.h"
 
-#include <algorithm>
-#include <cstdlib>
 #include <set>
 #include <stdexcept>
 

@@ -207,7 +207,6 @@ ReadAlignment alignReads(const std::vector<Support>& supports, std::int64_t max_
   ReadAlignment alignment = alignGreedily(supports);
   for (;;) {
     const UnionAnswer fewer = unionWithin(supports, alignment.reads - 1, max_work);
-    alignment.is_proven = !fewer.is_possible;
     if (fewer.shifts.empty()) return alignment;
     ReadSet reads;
     for (size_t i = 0; i < supports.size(); ++i) reads.add(supports[i], fewer.shifts[i]);

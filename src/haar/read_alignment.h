@@ -51,7 +51,6 @@ UnionAnswer unionWithin(const std::vector<Support>& supports, int most, std::int
 struct ReadAlignment {
   std::vector<cv::Point> shifts;  ///< of each support
   int reads = 0;
-  bool is_proven = false;  ///< no other shifts read fewer values
 };
 
 /// Improves a greedy alignment as long as unionWithin() finds one with fewer reads.

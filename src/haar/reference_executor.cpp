@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/haar/reference_executor.h"
 
-#include <algorithm>
-#include <stdexcept>
-#include <string>
-
 namespace chain_tracker::haar {
 namespace {
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "row_integral.h"
 
-#include <cstring>
-
 #include "machine_instructions.h"
 
 #ifdef __SSE2__

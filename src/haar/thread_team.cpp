@@ -6,12 +6,20 @@
 namespace chain_tracker::haar {
 
 ThreadTeam::ThreadTeam(int members, Work work) : work_(std::move(work)) {
-  for (int member = 1; member < members; ++member) {
-    threads_.emplace_back([this, member] { serve(member); });
+  try {
+    for (int member = 1; member < members; ++member) {
+      threads_.emplace_back([this, member] { serve(member); });
+    }
+  } catch (...) {
+    // The system has no more of them: those that wait already must not be left behind.
+    stop();
+    throw;
   }
 }
 
-ThreadTeam::~ThreadTeam() {
+ThreadTeam::~ThreadTeam() { stop(); }
+
+void ThreadTeam::stop() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stopping_ = true;

@@ -14,7 +14,8 @@ class ThreadTeam {
  public:
   using Work = std::function<void(int member)>;
 
-  /// `work` is what each member does in every run; member 0 is the caller of run().
+  /// `work` is what each member does in every run; member 0 is the caller of run(). Throws
+  /// std::system_error if the system has no thread for one of them.
   ThreadTeam(int members, Work work);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -24,6 +25,7 @@ class ThreadTeam {
   void run();
 
  private:
+  void stop();
   void serve(int member);
 
   Work work_;

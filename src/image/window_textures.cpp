@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <opencv2/imgproc.hpp>
 
@@ -56,6 +57,10 @@ WindowTexture textureOf(float upper_left, float upper_right, float lower_left, f
   const float c = 0.5F * (upper_left + lower_right - upper_right - lower_left);
   const float norm = std::sqrt(a * a + b * b + c * c + kFlatContrast * kFlatContrast);
   return {a / norm, b / norm, c / norm};
+}
+
+double strengthOf(const WindowTexture& texture) {
+  return std::sqrt(std::inner_product(texture.begin(), texture.end(), texture.begin(), 0.0));
 }
 
 void computeWindowTextures(FramePixels& pixels, const WindowLattice& lattice,

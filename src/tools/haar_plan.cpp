@@ -39,10 +39,10 @@ void printPrediction(const haar::ConvolutionPlan& plan, bool calibrate) {
   haar::CostModelOptions options;
   options.measure_anew = calibrate;
   haar::CostModel model(cv::Size(640, 480), options);
-  const double classic = model.classicSeconds(plan);
-  const double parsed = model.planSeconds(plan);
-  std::cout << "predicted for 640 x 480 on this machine: classic " << 1e3 * classic
-            << " ms, parsed " << 1e3 * parsed << " ms, speed-up " << classic / parsed << "\n";
+  const double speed_up = model.speedUp(plan);
+  std::cout << "predicted for 640 x 480 on this machine: classic "
+            << 1e3 * model.classicSeconds(plan) << " ms, parsed " << 1e3 * model.planSeconds(plan)
+            << " ms, speed-up " << speed_up << "\n";
 }
 
 void writeDot(const haar::ConvolutionPlan& plan, const std::string& path) {

@@ -134,9 +134,9 @@ void describeOptions(CLI::App& app, Options& options) {
   CLI::Option_group* input = app.add_option_group("input");
   input->add_option("--video", options.video, "Video file, mp4 or avi")->check(CLI::ExistingFile);
   input
-      ->add_option(
-          "--sequence", options.sequence,
-          "Folder with img/*.jpg|png|bmp, in natural order (2.png before 10.png), or one video")
+      ->add_option("--sequence", options.sequence,
+                   "Folder with img/*.jpg|jpeg|png|bmp, in natural order (2.png before 10.png), or "
+                   "one video")
       ->check(CLI::ExistingDirectory);
   input->require_option(1);
   app.add_option("--topic", options.topic, "Topic of the images")->capture_default_str();

@@ -294,9 +294,6 @@ TEST(ChainTracker, stateIsWithinItsRanges) {
   const DrawnBox box;
   ChainTracker tracker = startTracker(box);
   const ChainState& state = tracker.update(box.image({0.1, 1.03, {154.5, 111.5}}));
-  EXPECT_TRUE(std::isfinite(state.energy));
-  EXPECT_GE(state.energy, 0.0);
-  EXPECT_LE(state.energy, 8.0 * double(state.parts.size()) + 100.0);
   ASSERT_EQ(1U, state.segments.size());
   const SegmentState& segment = state.segments[0];
   EXPECT_EQ("body", segment.name);
@@ -316,10 +313,6 @@ TEST(ChainTracker, stateIsWithinItsRanges) {
   EXPECT_GE(state.confidence, least);
   EXPECT_LE(state.confidence, most);
   EXPECT_EQ(state.confidence, segment.confidence);
-  EXPECT_GE(state.times.part_costs, 0.0);
-  EXPECT_NEAR(
-      state.times.part_costs + state.times.matching + state.times.refinement + state.times.pose,
-      state.times.total(), 1e-9);
 }
 
 TEST(ChainTracker, covariancesOfAWellSeenBoxArePositiveDefinite) {

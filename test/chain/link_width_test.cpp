@@ -91,11 +91,16 @@ TEST(MeasureAspects, isEmptyWhereNothingStandsOut) {
 }
 
 TEST(MeasureAspects, toleratesAPolylineThatLeavesTheImage) {
-  const Polyline leaving = {{280, 100}, {340, 100}, {420, 100}};
-  for (const double aspect : measureAspects(meadow(), leaving)) {
-    EXPECT_GE(aspect, 0.14);
-    EXPECT_LE(aspect, 0.5);
-  }
+  const Polyline leaving = {{140, 100}, {240, 100}, {340, 100}};
+  cv::Mat3b image = meadow();
+  drawLink({140, 100}, {340, 100}, 24.0, {60, 90, 200}, image);
+  const std::vector<double> aspects = measureAspects(image, leaving);
+  ASSERT_EQ(2U, aspects.size());
+  for (const double aspect : aspects) EXPECT_NEAR(kCovered * 0.24, aspect, 0.02);
+}
+
+TEST(MeasureAspects, isEmptyOutsideTheImage) {
+  EXPECT_TRUE(measureAspects(meadow(), {{900, 100}, {960, 100}, {1020, 100}}).empty());
 }
 
 TEST(WithMeasuredAspects, changesOnlySegmentsThatAskForIt) {

@@ -22,8 +22,14 @@ TEST(AddTextureCosts, addHalfTheWeightedDistance) {
   const ColorPalette palette = onlyPalette(image);
   FramePixels pixels(palette, image);
   const std::vector<WindowTexture> parts = {{0.5F, -0.3F, 0.1F}, {0.0F, 0.0F, 0.0F}};
-  for (int step : {1, 2}) {
-    const CandidateGrid grid = gridAround({{30, 30}, {52, 41}}, 12.0, step, 6.0);
+  struct Case {
+    cv::Point2d second;
+    int step;
+    bool is_sparse;
+  };
+  for (const Case& each : {Case{{52, 41}, 1, true}, {{52, 41}, 2, true}, {{33, 31}, 1, false}}) {
+    const CandidateGrid grid = gridAround({{30, 30}, each.second}, 12.0, each.step, 6.0);
+    ASSERT_EQ(grid.isSparse(), each.is_sparse);
     const double weight = 3.0;
     std::vector<cv::Mat1f> costs = random.costMaps(2, grid.states);
     std::vector<cv::Mat1f> before = {costs[0].clone(), costs[1].clone()};

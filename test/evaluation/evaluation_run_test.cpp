@@ -180,7 +180,6 @@ TEST(EvaluationRun, AFrameWithoutAnObjectDoesNotCount) {
   const auto result = run(FakeSource(3), only({at(0.0), lost(), at(0.0)}), truth);
   EXPECT_DOUBLE_EQ(result.runs.front().scores.mean_iou, 1.0);
   EXPECT_EQ(result.runs.front().scores.lost_frames, 0);
-  EXPECT_TRUE(result.runs.front().frames[1].score.has_absence);
 }
 
 TEST(EvaluationRun, PointsAreScoredOneByOneAndAsTheirBox) {
@@ -202,6 +201,16 @@ TEST(EvaluationRun, PointsAreScoredOneByOneAndAsTheirBox) {
 TEST(EvaluationRun, PointsOfAnotherNumberThanThePartsAreNotScored) {
   expectBoxesScoredOnly(
       run(FakeSource(2), only({at(0.0), at(0.0)}), threeParts(), EvaluationOptions(), kEnds));
+}
+
+TEST(EvaluationRun, BoxesTurnWhereOnlyTheyAreScored) {
+  TrackedFrame turned = at(0.0);
+  turned.box = {5.0, 0.0, 10.0, 10.0};
+  turned.outline = {{5, 0}, {10, 5}, {5, 10}, {0, 5}};
+  GroundTruth truth = threeParts();
+  truth.boxes_turn = true;
+  const auto result = run(FakeSource(1), only({turned}), truth, EvaluationOptions(), kEnds);
+  EXPECT_DOUBLE_EQ(result.runs.front().frames.front().score.overlap, 1.0);
 }
 
 TEST(EvaluationRun, BoxAroundPointsIsATenthLarger) {

@@ -109,7 +109,6 @@ TEST(Metrics, ALostFrameCountsAsNoOverlapWhereThereIsAnObject) {
 
 TEST(Metrics, BeingLostIsNoFaultWhereThereIsNoObject) {
   FrameScore absent;
-  absent.has_absence = true;
   absent.lost = true;
   const Scores scores = summarize({seen(1.0, 0.0), absent, seen(1.0, 0.0)}, 100.0, {});
   EXPECT_EQ(scores.lost_frames, 0);

@@ -22,6 +22,7 @@ class Differences {
     compare(prefix + "parts", expected.parts, actual.parts);
     compare(prefix + "aspect", expected.aspect, actual.aspect);
     compare(prefix + "measure_aspect", expected.measure_aspect, actual.measure_aspect);
+    compare(prefix + "margin", expected.margin, actual.margin);
     compare(prefix + "window", expected.window, actual.window);
     compare(prefix + "measure_window", expected.measure_window, actual.measure_window);
     compare(prefix + "stretch_sigma", expected.stretch_sigma, actual.stretch_sigma);

@@ -30,8 +30,7 @@ void write(std::ostream& out, const CarriedPoint& point) {
 std::string textOf(const ChainState& state) {
   std::ostringstream out;
   out.precision(17);
-  out << toString(state.status) << ", confidence " << state.confidence << ", energy "
-      << state.energy << "\n";
+  out << toString(state.status) << ", confidence " << state.confidence << "\n";
   for (const PartState& part : state.parts) write(out, part);
   for (const SegmentState& segment : state.segments) write(out, segment);
   for (const CarriedPoint& point : state.points) write(out, point);

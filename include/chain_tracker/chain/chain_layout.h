@@ -44,6 +44,9 @@ struct SegmentLayout {
 /// Positions of all nodes, in the segment's frame.
 std::vector<cv::Point2d> nodesOf(const SegmentLayout& segment);
 
+/// Of its chain, from end to end along the edges [px].
+double chainLengthOf(const SegmentLayout& segment);
+
 /// The region that the object covers in the first frame [px].
 struct Silhouette {
   std::vector<cv::Point2d> points;

@@ -32,11 +32,13 @@ struct SegmentModel {
   /// Wanted number of parts; a grid of cells comes as near as it can. kPoints has as many as it is
   /// given.
   int parts = 24;
-  double aspect = 0.4;  ///< width over length of an elongated object given by its two ends
+  /// Width over length of an elongated object given by its two ends, and of the stroke along a
+  /// deformable one from which its colours are learned.
+  double aspect = 0.4;
   /// The first image decides on the aspect of a link, if it shows it; see link_width.h.
   bool measure_aspect = false;
   /// How far a grid of cells reaches beyond the outline, so that windows straddle it: fraction of
-  /// the square root of the area. Means nothing to a deformable segment.
+  /// the square root of the area. Means nothing to other layouts.
   double margin = 0.1;
   /// The first image decides on the windows of a deformable segment, and on how many parts they
   /// leave room for, if what it lies on is thicker than they are; see line_width.h.

@@ -40,34 +40,16 @@ struct CarriedPoint {
   bool visible = false;
 };
 
-/// Wall time of the steps of one update [ms].
-struct StepTimes {
-  double part_costs = 0.0;  ///< colour lookup and cost maps over the search window
-  double matching = 0.0;    ///< dynamic programming over the pose hypotheses
-  double refinement = 0.0;  ///< the same around the winner at full resolution
-  double pose = 0.0;        ///< pose, confidence and status
-  double total() const { return part_costs + matching + refinement + pose; }
-  StepTimes& operator+=(const StepTimes& other) {
-    part_costs += other.part_costs;
-    matching += other.matching;
-    refinement += other.refinement;
-    pose += other.pose;
-    return *this;
-  }
-};
-
-/// While the object is LOST, `confidence` and `energy` are of the best chain found, which is not
-/// believed; all parts, segments and points are hidden, with confidence 0.
+/// While the object is LOST, `confidence` is of the best chain found, which is not believed; all
+/// parts, segments and points are hidden, with confidence 0.
 struct ChainState {
   TrackingStatus status = TrackingStatus::kInitializing;
   double confidence = 0.0;  ///< [0, 1]: as of a segment, over all parts
-  double energy = 0.0;      ///< E of thesis ch. 3.2 on the finest grid searched; smaller is better
   std::vector<PartState> parts;
   std::vector<SegmentState> segments;
   std::vector<CarriedPoint> points;  ///< in the order given at initialisation
   std::vector<cv::Point2d> outline;  ///< [px]; see CarriedShape and ObjectShape::carry()
   cv::Rect2d box;                    ///< upright [px]; see the same
-  StepTimes times;
 };
 
 /// The parts of a segment, where a state or a vector holds them; it must live as long.

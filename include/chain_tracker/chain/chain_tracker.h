@@ -26,7 +26,8 @@ class ChainTracker {
   /// least two parts (points).
   /// Throws std::invalid_argument naming the thing, its value and what is allowed: a faulty model,
   /// an empty image or one of another type, one smaller than a part, a wrong number of points,
-  /// points that coincide, are not finite or lie outside the image.
+  /// points that coincide, are not finite or lie outside the image, or a shape around which the
+  /// image is of one colour.
   ChainTracker(const ChainModel& model, const cv::Mat& image,
                const std::vector<cv::Point2d>& points);
   ~ChainTracker();
@@ -40,7 +41,8 @@ class ChainTracker {
   /// which the object begins to be in doubt takes three searches, every other one after it three
   /// or, for a single deformable segment, every one up to eight, the widest of them over 81 x 81
   /// candidates a part. While segments at an end of a chain are hidden, every other frame takes
-  /// two.
+  /// two. An open line that nothing marks clearly takes up to two narrow ones more in every frame,
+  /// in which its ends are looked for.
   ///
   /// Memory: after the first frames, none is allocated but for what is new: parts turned as never
   /// before, windows of another size, searches of an object that is in doubt or partly hidden.

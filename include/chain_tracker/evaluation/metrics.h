@@ -6,7 +6,6 @@
 /// Ramanan, "Articulated Human Detection with Flexible Mixtures of Parts", PAMI 2013.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -37,7 +36,6 @@ double shareWithin(const std::vector<double>& values, double limit);
 /// What a frame counts for. A frame without truth does not count at all.
 struct FrameScore {
   bool has_object = false;           ///< the truth says where the object is
-  bool has_absence = false;          ///< the truth says that it is not there
   bool lost = false;                 ///< the tracker reports that it does not know
   double overlap = 0.0;              ///< 0 for a lost frame
   double center_error = 0.0;         ///< [px]; infinite for a lost frame

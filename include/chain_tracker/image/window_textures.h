@@ -29,6 +29,9 @@ using WindowTexture = std::array<float, kTextureSize>;
 /// From the means of the quadrants [grey levels].
 WindowTexture textureOf(float upper_left, float upper_right, float lower_left, float lower_right);
 
+/// Length of the vector, in [0, 1): how much of a pattern the window has.
+double strengthOf(const WindowTexture& texture);
+
 struct WindowTexturesWorkspace {
   cv::Mat1b cells;  ///< means of grey levels
   WindowSums quadrants;
