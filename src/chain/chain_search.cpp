@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "chain_nodes.h"
 #include "length_evidence.h"
@@ -41,6 +42,9 @@ constexpr size_t kFewestVoters = 4;
 /// Of the usual likeness: from which on a chain tells how the light has changed. It is lower than
 /// what is trusted otherwise, as in another light all looks less as learned.
 constexpr double kTellsLight = 0.6;
+/// Share of an object outside the image from which on it is not seen: beyond the border its pixels
+/// go on, as if they showed more of it.
+constexpr double kMostOutside = 0.9;
 /// Of lengthEvidence(): from which on the two ends of a line can be told from one another.
 constexpr double kTellsPlace = 0.5;
 
@@ -75,6 +79,10 @@ void interpolatePoses(const std::vector<PoseGrid>& grids, const ChainMatch& matc
 }
 
 }  // namespace
+
+void forget(FoundChain& found) {
+  found.state.confidence = found.likeness = found.expected_likeness = 0.0;
+}
 
 ChainSearch::ChainSearch(const ChainModel& model, const cv::Mat& image, const ChainLayout& layout,
                          const ChainState& initial)
@@ -146,7 +154,7 @@ void ChainSearch::find(const ChainState& sought, const SearchRange& range, Found
   coarse_ = range.is_narrow ? &narrow_ : &wide_;
   springs_.relax(sought, range.looseness, layout_);
   found.state = sought;
-  found.state.confidence = found.likeness = found.expected_likeness = 0.0;
+  forget(found);
   lookCoarsely();
   const ChainMatch& match =
       matched(coarse_->candidates.poses, coarse_->candidates.segments, coarse_->workspace);
@@ -368,6 +376,8 @@ void ChainSearch::compare(const std::vector<RefinedPart>& refined, FoundChain& f
   for (const PartState& part : parts) outside_.push_back(shareOutside(part, image_));
   found.likeness = expectations_.likeness(costs_, shares_);
   found.expected_likeness = expectations_.expectedLikeness(found.likeness, shares_, outside_);
+  const double outside = std::accumulate(outside_.begin(), outside_.end(), 0.0);
+  if (outside > kMostOutside * static_cast<double>(parts.size())) forget(found);
 }
 
 /// The parts were found under `poses_`.

@@ -44,6 +44,9 @@ struct FoundChain {
   double expected_likeness = 0.0;
 };
 
+/// Leaves it where it was found, but believes nothing of it.
+void forget(FoundChain& found);
+
 class ChainSearch {
  public:
   /// `initial`: the object in the first frame, `image_from_segment` and parts only.
@@ -68,7 +71,7 @@ class ChainSearch {
 
   /// `found` becomes `sought` moved to the best chain: parts, poses and confidence;
   /// its status, outline and points are those of `sought`. Confidence 0 if the springs allow no
-  /// chain. Time as of ChainTracker::update().
+  /// chain or if nine tenths of it lie outside the image. Time as of ChainTracker::update().
   void find(const ChainState& sought, const SearchRange& range, FoundChain& found);
 
   /// As find(), around the place of PlacementSearch within `reach` [px].

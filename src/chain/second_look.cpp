@@ -69,10 +69,6 @@ bool isOpen(const SegmentLayout& line) {
   return cv::norm(ends) > kOpen * chainLengthOf(line);
 }
 
-void forget(FoundChain& found) {
-  found.state.confidence = found.likeness = found.expected_likeness = 0.0;
-}
-
 }  // namespace
 
 SecondLook::SecondLook(const ChainModel& model, const ChainLayout& layout,

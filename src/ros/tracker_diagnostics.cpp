@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chain_tracker/ros/tracker_diagnostics.h"
 
+#include <algorithm>
 #include <string>
 
 #include "chain_tracker/ros/msg_conversion.h"
@@ -12,7 +13,8 @@ using diagnostic_msgs::DiagnosticStatus;
 void TrackerDiagnostics::record(const TrackedObjectArray& objects, const ros::Duration& latency) {
   const std::lock_guard<std::mutex> lock(mutex_);
   last_objects_ = objects;
-  last_latency_ = latency;
+  // The clock of a bag may lag behind the stamps of its images.
+  last_latency_ = std::max(latency, ros::Duration());
   ++frames_;
 }
 

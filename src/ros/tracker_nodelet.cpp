@@ -174,8 +174,11 @@ void TrackerNodelet::check() {
   }
   if (frames_received_ > 0 || commands_->paused()) return;
   if (++checks_without_image_ == kPatience) {
-    NODELET_WARN_STREAM(getName() << ": no image has come on topic " << image_topic_
-                                  << " yet; remap `image` if this is not the camera's");
+    const bool clock_is_silent = ros::Time::isSimTime() && ros::Time::now().isZero();
+    NODELET_WARN_STREAM(getName() << ": no image has come on topic " << image_topic_ << " yet; "
+                                  << (clock_is_silent
+                                          ? "/use_sim_time is true and nothing publishes /clock"
+                                          : "remap `image` if this is not the camera's"));
   }
 }
 

@@ -25,6 +25,10 @@ ChainTracker startTracker(const DrawnBox& box) {
   return ChainTracker(model, box.image(kStart), DrawnBox::corners(kStart));
 }
 
+ChainModel shippedModel(const std::string& name) {
+  return loadChainModel(std::string(CHAIN_TRACKER_SOURCE_DIR) + "/config/models/" + name + ".yaml");
+}
+
 double largestError(const ChainState& state, const Similarity& truth) {
   const std::vector<cv::Point2d> corners = DrawnBox::corners(truth);
   double largest = 0.0;
@@ -237,8 +241,7 @@ TEST(ChainTrackerLoss, coveredPartsAreHiddenAndCarried) {
 
 ChainTracker startTracker(const SyntheticScene& scene) {
   const SceneFrame first = scene.render(0);
-  const std::string models = std::string(CHAIN_TRACKER_SOURCE_DIR) + "/config/models/";
-  return ChainTracker(loadChainModel(models + scene.model() + ".yaml"), first.image, first.points);
+  return ChainTracker(shippedModel(scene.model()), first.image, first.points);
 }
 
 /// What is left looks a little like some of them.
@@ -292,6 +295,33 @@ TEST(ChainTrackerLoss, boxLeavingTheImageIsLost) {
     if (pose.translation.x > 370.0) {
       ASSERT_EQ(TrackingStatus::kLost, state.status) << frame;
     }
+  }
+}
+
+/// A wall along which the camera pans, so that all of it leaves to the left.
+cv::Mat3b wallAfter(int frame) {
+  static const cv::Mat3b wall = [] {
+    cv::Mat1f grain(240, 900);
+    cv::RNG(1).fill(grain, cv::RNG::NORMAL, 0.0, 8.0);
+    cv::GaussianBlur(grain, grain, {}, 2.0);
+    cv::Mat image;
+    cv::merge(std::vector<cv::Mat>{grain + 110.0, grain + 130.0, grain + 120.0}, image);
+    image.convertTo(image, CV_8U);
+    return image;
+  }();
+  return wall.colRange(4 * frame, 4 * frame + 320);
+}
+
+/// Beyond the border its pixels go on, as if more of a plain object were seen there.
+TEST(ChainTrackerLoss, whatIsSeenNowhereInTheImageIsLost) {
+  ChainTracker tracker(shippedModel("worm"), wallAfter(0), {{30, 121}, {110, 125}});
+  for (int frame = 1; frame <= 70; ++frame) {
+    const ChainState& state = tracker.update(wallAfter(frame));
+    if (state.status == TrackingStatus::kLost) continue;
+    EXPECT_TRUE(
+        std::any_of(state.parts.begin(), state.parts.end(),
+                    [](const PartState& part) { return part.position.x + 0.5 * part.side > 0.0; }))
+        << "frame " << frame;
   }
 }
 
