@@ -26,6 +26,8 @@ std::string valueText(const XmlRpcValue& value) {
   std::ostringstream text;
   if (value.getType() == XmlRpcValue::TypeString) {
     text << '\'' << static_cast<std::string>(value) << '\'';
+  } else if (value.getType() == XmlRpcValue::TypeBoolean) {
+    text << (static_cast<bool>(XmlRpcValue(value)) ? "true" : "false");
   } else {
     value.write(text);
   }

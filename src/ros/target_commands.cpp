@@ -24,6 +24,15 @@ bool isClosedQuadrilateral(const std::vector<cv::Point2d>& points) {
   return points.size() == 5 && cv::norm(points.front() - points.back()) <= kClosingGap;
 }
 
+void requireDefaultModel(const std::string& model, const ModelFolder& models) {
+  if (model == kAuto) return;
+  try {
+    models.load(model);
+  } catch (const std::exception& error) {
+    throw std::invalid_argument(std::string("~default_model: ") + error.what());
+  }
+}
+
 }  // namespace
 
 TargetCommands::TargetCommands(const std::string& name, const std::string& image_topic,
@@ -38,6 +47,7 @@ TargetCommands::TargetCommands(const std::string& name, const std::string& image
       registry_(registry),
       history_(history),
       spinner_(kThreads, &queue_) {
+  requireDefaultModel(parameters_.default_model, models_);
   ros::NodeHandle node = private_node;
   node.setCallbackQueue(&queue_);
   services_ = {node.advertiseService("set_target", &TargetCommands::setTarget, this),

@@ -45,7 +45,7 @@ TEST(Configuration, PointsAsTextGiveAnObject) {
 }
 
 TEST(Configuration, AFaultyParameterLeavesTheNodeAliveAndIdle) {
-  for (const std::string node : {"faulty", "no_transport"}) {
+  for (const std::string node : {"faulty", "no_transport", "no_model"}) {
     SCOPED_TRACE(node);
     ASSERT_TRUE(ros::service::waitForService(node + "/get_loggers", ros::Duration(kDeadline)));
     TrackerClient others("text", "image", kListeners);

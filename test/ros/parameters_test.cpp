@@ -86,6 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{"history", -1, "~history is -1, must be an integer in [0, 1000]"},
         Wrong{"history", 2.5, "~history is 2.5, must be an integer in [0, 1000]"},
+        Wrong{"history", true, "~history is true, must be an integer in [0, 1000]"},
         Wrong{"history", "9", "~history is '9', must be an integer in [0, 1000]"},
         Wrong{"init_timeout", 0.0, "~init_timeout is 0, must be a number in [0.1, 600]"},
         Wrong{"init_timeout", "5 s", "~init_timeout is '5 s', must be a number in [0.1, 600]"},

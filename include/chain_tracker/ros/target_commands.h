@@ -28,7 +28,8 @@ namespace chain_tracker {
 class TargetCommands {
  public:
   /// `name` begins every line of the log, `image_topic` is named where no image comes.
-  /// The registry and the history must outlive this object.
+  /// The registry and the history must outlive this object. Throws std::invalid_argument if there
+  /// is no such default model.
   TargetCommands(const std::string& name, const std::string& image_topic,
                  const ros::NodeHandle& private_node, const TrackerParameters& parameters,
                  TargetRegistry* registry, const ImageHistory* history);
