@@ -48,7 +48,7 @@ cv::Mat1b axisColors(const cv::Mat& image, const std::vector<cv::Point2d>& strok
   const auto within = [&](double distance) {
     return maskOf({stroke, std::max(kThinnest, 2.0 * distance)}, {{}, image.size()}, 0.0);
   };
-  const cv::Mat1b axis = within(ring.axis);
+  cv::Mat1b axis = within(ring.axis);
   if (cv::countNonZero(axis) == 0) return axis;
   cv::Mat1b around = within(ring.ring_end);
   around.setTo(0, within(ring.ring_start));

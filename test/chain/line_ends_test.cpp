@@ -12,22 +12,22 @@ namespace {
 constexpr int kParts = 21;
 
 /// Parts 10 px apart along +x, from x = 0 on.
-SegmentLayout lineLayout() {
+SegmentLayout lineLayout(int parts = kParts) {
   SegmentLayout layout;
-  layout.edges.resize(kParts - 1);
+  layout.edges.resize(static_cast<size_t>(parts - 1));
   for (EdgeLayout& edge : layout.edges) edge.length = 10.0;
   return layout;
 }
 
-ChainState lineAsLaid(double step = 10.0) {
+ChainState lineAsLaid(double step = 10.0, int parts = kParts) {
   ChainState line;
-  line.parts.resize(kParts);
-  for (size_t k = 0; k < kParts; ++k) {
+  line.parts.resize(static_cast<size_t>(parts));
+  for (size_t k = 0; k < line.parts.size(); ++k) {
     line.parts[k].position = {step * double(k), 0.0};
     line.parts[k].visible = true;
   }
   line.segments.resize(1);
-  line.segments[0].part_count = kParts;
+  line.segments[0].part_count = parts;
   line.segments[0].image_from_segment.scale = 1.0;
   return line;
 }
@@ -93,6 +93,15 @@ TEST(LineEnds, takeTurnsInRescaling) {
   EXPECT_EQ(2, longer);
   EXPECT_NEAR(220.0, longest, 1e-6);
   EXPECT_NEAR(-20.0, shortest, 1e-6);
+}
+
+TEST(LineEnds, rescaleALineOfTwoPartsByNoMoreThanAFifth) {
+  LineEnds ends(lineLayout(2));
+  for (int turn = 0; turn < 4; ++turn) {
+    ChainState line = lineAsLaid(10.0, 2);
+    ASSERT_TRUE(ends.rescale(line));
+    EXPECT_NEAR(0.2, std::abs(line.segments[0].image_from_segment.scale - 1.0), 1e-9) << turn;
+  }
 }
 
 TEST(LineEnds, doNotLengthenWhatIsShort) {

@@ -61,6 +61,10 @@ TEST(MeasureThickness, isNoneWhereNothingStandsOut) {
   EXPECT_LT(measureThickness(clutteredGround(random), kStraight), 5.0);
 }
 
+TEST(MeasureThickness, isNoneOutsideTheImage) {
+  EXPECT_EQ(0.0, measureThickness(drawn(kStraight, 31.0), {{900.0, 120.0}, {980.0, 120.0}}));
+}
+
 TEST(MeasureThickness, isNoneOfWhatIsNoLine) {
   EXPECT_EQ(0.0, measureThickness(drawn(kStraight, 120.0), kStraight));
 }
