@@ -262,8 +262,8 @@ void readBoxes(const std::string& path, GroundTruth& truth) {
       if (!(box->width > 0.0 && box->height > 0.0)) box.reset();
     }
     if (box && n.size() == 8) {
-      truth.polygons[frame] = cornersIn(n);
-      truth.boxes_turn = truth.boxes_turn || !isUpright(cornersIn(n));
+      const auto entry = truth.polygons.insert_or_assign(frame, cornersIn(n)).first;
+      truth.boxes_turn = truth.boxes_turn || !isUpright(entry->second);
     }
     truth.boxes[frame++] = box;
   }
